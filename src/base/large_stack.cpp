@@ -13,7 +13,7 @@ namespace {
 constexpr rlim_t enough_bytes = 1 << 20;  // every kernel is tested on as much
 constexpr std::size_t own_bytes = 4 << 20;
 
-struct Work {
+struct StackWork {
     const std::function<int()>& run;
     int result = 0;
 };
@@ -27,10 +27,10 @@ int on_enough_stack(const std::function<int()>& work) {
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, own_bytes);
     pthread_setattr_default_np(&attributes);
-    Work all{work};
+    StackWork all{work};
     pthread_t thread{};
     const auto start = [](void* to) -> void* {
-        Work& w = *static_cast<Work*>(to);
+        StackWork& w = *static_cast<StackWork*>(to);
         w.result = w.run();
         return nullptr;
     };

@@ -15,7 +15,7 @@ constexpr std::string_view hoya = "Hoya's catalogue of 2017-04-01, by refractive
 constexpr std::string_view cdgm = "CDGM's catalogue of 2022-06, by refractiveindex.info";
 
 /// A maker's glass, of six coefficients: B1, C1, ... of Sellmeier's formula; or of Schott's, by powers 0, 2, -2, -4, -6, -8.
-struct Row {
+struct MakersGlass {
     std::string_view name;
     std::array<double, 6> coefficients;
     std::array<double, 2> range_nm;
@@ -30,7 +30,7 @@ std::vector<double> schott_powers(std::span<const double> c) {
 }
 
 // clang-format off
-constexpr Row sellmeier_rows[] = {
+constexpr MakersGlass sellmeier_rows[] = {
     {"BAFN6", {1.36719201, 0.00882820704, 0.10907994, 0.0438731646, 1.02108011, 113.58602}, {350, 2325}, schott},
     {"F2", {1.34533359, 0.00997743871, 0.209073176, 0.0470450767, 0.937357162, 111.886764}, {320, 2500}, schott},
     {"F5", {1.3104463, 0.00958633048, 0.19603426, 0.0457627627, 0.96612977, 115.011883}, {320, 2500}, schott},
@@ -265,7 +265,7 @@ constexpr Row sellmeier_rows[] = {
     {"D-K59", {1.1209538, 0.00657908073, 0.152690608, 0.0235724778, 1.07502924, 106.309977}, {302, 2325}, cdgm},
     {"D-ZK3", {1.33936811, 0.00760612309, 0.148690268, 0.0238444644, 1.00954033, 89.0419787}, {302, 2325}, cdgm},
 };
-constexpr Row schott_rows[] = {
+constexpr MakersGlass schott_rows[] = {
     {"B270", {2.286575, -8.7334582e-3, 1.1742884e-2, 2.9041756e-4, -1.2506695e-5, 9.2646253e-7}, {380, 1014}, "Schott's sheet glass, a fit that lens design programs have"},
     {"FC5", {2.1894054, -0.0099044908, 0.008640337, 0.00022263067, -1.2291942e-05, 5.9386349e-07}, {365.01, 1013.98}, hoya},
     {"FCD1", {2.2181132, -0.005799427, 0.0083470679, 6.5046523e-05, 8.5142186e-06, -5.8852269e-07}, {365.01, 1013.98}, hoya},
@@ -370,16 +370,16 @@ std::vector<ShippedGlass> plastics_and_crystals() {
 const std::vector<ShippedGlass>& shipped_glasses() {
     static const std::vector<ShippedGlass> all = [] {
         std::vector<ShippedGlass> glasses;
-        for (const Row& r : sellmeier_rows)
+        for (const MakersGlass& r : sellmeier_rows)
             glasses.push_back(
                 {{std::string(r.name), Formula::sellmeier, {r.coefficients.begin(), r.coefficients.end()}, r.range_nm}, r.source});
-        for (const Row& r : schott_rows)
+        for (const MakersGlass& r : schott_rows)
             glasses.push_back({{std::string(r.name), Formula::power_series, schott_powers(r.coefficients), r.range_nm}, r.source});
         for (const std::string_view name : older_names) {
             const auto successor = std::ranges::find_if(
                 glasses, [&](const ShippedGlass& s) { return s.glass.name.starts_with("N-") && s.glass.name.substr(2) == name; });
             ShippedGlass older = *successor;
-            for (const Row& r : sellmeier_rows)
+            for (const MakersGlass& r : sellmeier_rows)
                 if (r.name == successor->glass.name) older.successor = r.name;
             older.glass.name = name;
             glasses.push_back(std::move(older));

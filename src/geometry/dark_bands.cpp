@@ -41,9 +41,9 @@ double spread_transform(const Diffuser& diffuser, int axis, double height_mm, do
 }
 
 /// The diffuser's transfer factor for a wave over the array's own x and y, periods per mm.
-class Spread {
+class DiffuserTransfer {
   public:
-    Spread(const Display& d, const Geometry& g, std::size_t axis)
+    DiffuserTransfer(const Display& d, const Geometry& g, std::size_t axis)
         : diffuser_(d.diffuser),
           height_mm_(d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0),
           cosine_(std::cos(d.array.turn_deg() * degree)),
@@ -61,7 +61,7 @@ class Spread {
 };
 
 /// Strips that are lit for |x| < radius: waves from joint to joint, after the diffuser.
-std::vector<double> strip_waves(double pitch, double radius, const Spread& spread) {
+std::vector<double> strip_waves(double pitch, double radius, const DiffuserTransfer& spread) {
     std::vector<double> waves(harmonics);
     waves[0] = std::min(2 * radius / pitch, 1.);
     for (std::size_t k = 1; k < waves.size(); ++k) {
@@ -86,7 +86,7 @@ class StaggeredLight {
     }
 
     /// The mean along one row of what is seen across a pitch, from joint to joint.
-    std::vector<double> across(const Spread& spread) const {
+    std::vector<double> across(const DiffuserTransfer& spread) const {
         constexpr int most_m = 128, most_n = 63;
         std::vector<double> waves(harmonics);
         const double px = lattice_.pitch[0], py = lattice_.pitch[1];
@@ -101,7 +101,7 @@ class StaggeredLight {
     }
 
     /// The mean along x of what is seen from row to row.
-    std::vector<double> up(const Spread& spread) const {
+    std::vector<double> up(const DiffuserTransfer& spread) const {
         std::vector<double> waves(harmonics);
         for (int k = 0; k < 128; ++k)
             waves[std::size_t(k)] = (k == 0 ? 1 : 2) * amplitude(0, chords(2 * k)) * spread(0, k / lattice_.pitch[1]);

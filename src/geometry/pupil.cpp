@@ -11,10 +11,10 @@ namespace lfdsim {
 Pupil pupil(const std::vector<PlacedSurface>& surfaces, std::optional<double> stop_radius_mm, double stop_z_mm) {
     Pupil found{std::numeric_limits<double>::infinity(), {}, 1};
     /// A ray that comes down from the viewer's side: how far from the axis it is, and by how much more so per mm further down.
-    struct Ray {
+    struct AxialRay {
         double height, slope;
     };
-    Ray parallel{1, 0}, oblique{0, 1};  // the latter from the first vertex it meets
+    AxialRay parallel{1, 0}, oblique{0, 1};  // the latter from the first vertex it meets
     const double first_z = surfaces.back().z_mm;
     double z = first_z;
     for (std::size_t k = surfaces.size(); k-- > 0;) {
@@ -22,7 +22,7 @@ Pupil pupil(const std::vector<PlacedSurface>& surfaces, std::optional<double> st
         const bool thin = s.form == SurfaceForm::thin;
         // Going down, a surface with c < 0 is convex to the ray: n' slope' = n slope + c (n' - n) height.
         const double power = thin ? 0 : s.curvature_per_mm * (s.index_below - s.index_above);
-        for (Ray* ray : {&parallel, &oblique}) ray->height += ray->slope * (z - s.z_mm);
+        for (AxialRay* ray : {&parallel, &oblique}) ray->height += ray->slope * (z - s.z_mm);
         z = s.z_mm;
         const double height = std::abs(parallel.height);
         const bool first = k + 1 == surfaces.size();
@@ -36,7 +36,7 @@ Pupil pupil(const std::vector<PlacedSurface>& surfaces, std::optional<double> st
         narrow(s.semi_aperture_mm);
         if (stop_radius_mm && s.z_mm == stop_z_mm) narrow(*stop_radius_mm);
         found.cells = std::min(found.cells, 1 / height);
-        for (Ray* ray : {&parallel, &oblique}) ray->slope = (s.index_above * ray->slope + power * ray->height) / s.index_below;
+        for (AxialRay* ray : {&parallel, &oblique}) ray->slope = (s.index_above * ray->slope + power * ray->height) / s.index_below;
     }
     return found;
 }

@@ -10,16 +10,16 @@ namespace {
 constexpr double same = 1e-9;  // pixels: places closer than this are one
 constexpr double third = 1.0 / 3;
 
-struct Rect {
+struct CellRect {
     std::array<double, 2> from, to;
     double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
 };
 
-Rect rect_of(const Subpixel& s) { return {{s.rect[0], s.rect[1]}, {s.rect[2], s.rect[3]}}; }
+CellRect rect_of(const Subpixel& s) { return {{s.rect[0], s.rect[1]}, {s.rect[2], s.rect[3]}}; }
 
-Rect shrunk(const Rect& r, double aperture_ratio) {
+CellRect shrunk(const CellRect& r, double aperture_ratio) {
     const double half = 0.5 * std::sqrt(aperture_ratio);
-    Rect out{};
+    CellRect out{};
     for (std::size_t k = 0; k < 2; ++k) {
         const double middle = 0.5 * (r.from[k] + r.to[k]), reach = half * (r.to[k] - r.from[k]);
         out.from[k] = middle - reach;
@@ -72,7 +72,7 @@ std::array<std::int64_t, 2> least_cell(const std::vector<Subpixel>& all, const s
 }
 
 // The parts of a subpixel in the cells that it lies in, all of which are the same cell.
-void add_parts(const Subpixel& s, const Rect& lit, const std::array<std::int64_t, 2>& cell, double share,
+void add_parts(const Subpixel& s, const CellRect& lit, const std::array<std::int64_t, 2>& cell, double share,
                std::vector<LitPart>& to) {
     const double width = double(cell[0]), height = double(cell[1]);
     for (double y = std::floor(lit.from[1] / height); y * height < lit.to[1] - same; ++y)
@@ -84,7 +84,7 @@ void add_parts(const Subpixel& s, const Rect& lit, const std::array<std::int64_t
                 part.from[k] = std::max(lit.from[k] - corner[k], 0.);
                 part.to[k] = std::min(lit.to[k] - corner[k], double(cell[k]));
             }
-            const Rect here{part.from, part.to};
+            const CellRect here{part.from, part.to};
             if (here.to[0] - here.from[0] <= same || here.to[1] - here.from[1] <= same) continue;
             part.share = share * here.area() / lit.area();
             to.push_back(part);
@@ -135,7 +135,7 @@ SubpixelCell subpixel_cell(const Panel& panel) {
 std::vector<LitPart> lit_parts(const Panel& panel) {
     std::vector<LitPart> parts;
     if (panel.subpixels == SubpixelLayout::none) {
-        const Rect lit = shrunk({{0, 0}, {1, 1}}, panel.aperture_ratio);
+        const CellRect lit = shrunk({{0, 0}, {1, 1}}, panel.aperture_ratio);
         return {{3, {}, lit.from, lit.to, 1}};
     }
     const SubpixelCell cell = subpixel_cell(panel);
@@ -179,16 +179,16 @@ std::vector<LitPart> bounded_parts(const Panel& panel) {
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel& panel) {
-    struct Part {
+    struct ShiningRect {
         std::size_t of;
-        Rect rect;
+        CellRect rect;
     };
-    std::vector<Part> parts;
+    std::vector<ShiningRect> parts;
     for (std::size_t k = 0; k < panel.custom.size(); ++k) {
         std::vector<LitPart> of_one;
         add_parts(panel.custom[k], rect_of(panel.custom[k]), subpixel_cell(panel).size, 1, of_one);
         for (const LitPart& p : of_one) {
-            for (const Part& other : parts)
+            for (const ShiningRect& other : parts)
                 if (std::min(p.to[0], other.rect.to[0]) - std::max(p.from[0], other.rect.from[0]) > same &&
                     std::min(p.to[1], other.rect.to[1]) - std::max(p.from[1], other.rect.from[1]) > same)
                     return std::pair(other.of, k);
@@ -267,8 +267,8 @@ std::vector<LitRect> lit_rects(const Panel& panel, int channel, std::int64_t col
     const SubpixelCell cell = subpixel_cell(panel);
     const std::array<std::int64_t, 2> pixel{floor_mod(column, cell.size[0]), floor_mod(row, cell.size[1])};
     std::vector<LitRect> rects;
-    const auto add = [&](const Rect& r) {
-        const Rect lit = shrunk(r, panel.aperture_ratio);
+    const auto add = [&](const CellRect& r) {
+        const CellRect lit = shrunk(r, panel.aperture_ratio);
         const std::array<double, 2> centre{double(pixel[0]) + 0.5, double(pixel[1]) + 0.5};
         rects.push_back({{lit.from[0] - centre[0], lit.from[1] - centre[1]}, {lit.to[0] - centre[0], lit.to[1] - centre[1]}});
     };

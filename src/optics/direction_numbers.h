@@ -6,15 +6,15 @@ namespace lfdsim::optics {
 
 constexpr DirectionNumbers sobol_directions() {
     // s, a and m_1 .. m_s of dimensions 2 .. 6; dimension 1 is van der Corput's sequence.
-    struct Row {
+    struct Dimension {
         int s, a, m[4];
     };
-    constexpr Row rows[sampler_dimensions - 1] = {
+    constexpr Dimension rows[sampler_dimensions - 1] = {
         {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}}, {4, 1, {1, 1, 3, 3}}};
     DirectionNumbers d{};
     for (int i = 0; i < 32; ++i) d.v[0][i] = 1u << (31 - i);
     for (int k = 1; k < sampler_dimensions; ++k) {
-        const Row& row = rows[k - 1];
+        const Dimension& row = rows[k - 1];
         std::uint32_t* const v = d.v[k];
         for (int i = 0; i < 32; ++i) {
             if (i < row.s) {

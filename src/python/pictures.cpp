@@ -38,15 +38,15 @@ std::optional<Rect> rect_of(const std::optional<Corners>& c) {
 using Notes = std::vector<std::string>;
 
 /// A picture, and what there is to warn of.
-struct Made {
+struct PictureWithWarnings {
     Image image;
     Notes notes;
     nb::typed<nb::tuple, Pictured, Notes> objects() { return nb::make_tuple(array_of(std::move(image)), notes); }
 };
 
-Made elemental(const Display& display, const Geometry& geometry, int threads, Job& job) {
+PictureWithWarnings elemental(const Display& display, const Geometry& geometry, int threads, Job& job) {
     require_panel_memory(display);
-    Made made;
+    PictureWithWarnings made;
     Picture picture = elemental_images(display, geometry, scene_of(display, geometry, made.notes, job), threads, job);
     if (picture.dark > 0)
         made.notes.push_back(
@@ -57,14 +57,14 @@ Made elemental(const Display& display, const Geometry& geometry, int threads, Jo
 }
 
 nb::typed<nb::tuple, Pictured, Notes> elemental_images(const Display& display, int threads, const nb::object& progress) {
-    Made made;
+    PictureWithWarnings made;
     run(progress, [&](Job& job) { made = elemental(display, resolve(display), threads, job); });
     return made.objects();
 }
 
 nb::typed<nb::tuple, Pictured, Notes> photograph(const Display& display, const std::optional<Corners>& crop, int threads,
                                                  const nb::object& progress) {
-    Made made;
+    PictureWithWarnings made;
     run(progress, [&](Job& job) {
         require_picture_memory(display.camera.resolution[0], display.camera.resolution[1], 0);
         const Geometry geometry = resolve(display);
@@ -108,7 +108,7 @@ nb::typed<nb::tuple, Pictured, Notes, double> render(const Display& display, con
                                                      const nb::object& progress) {
     if (pixels) check_size(columns_of(*pixels), rows_of(*pixels), display);
     if (panel) check_size(panel->columns, panel->rows, display);
-    Made made;
+    PictureWithWarnings made;
     double seconds = 0;
     run(progress, [&](Job& job) {
         const Rect part = rect_of(crop).value_or(Rect{0, 0, int(display.camera.resolution[0]), int(display.camera.resolution[1])});
@@ -123,7 +123,7 @@ nb::typed<nb::tuple, Pictured, Notes, double> render(const Display& display, con
         };
         if (panel) return seen(panel->shown.summed());
         if (pixels) return seen(texels_of(*pixels, display.panel.encoding, "panel"));
-        Made content = elemental(display, geometry, threads, job);
+        PictureWithWarnings content = elemental(display, geometry, threads, job);
         made.notes = std::move(content.notes);
         if (!job.cancelled()) seen(shown_texels(content.image, display.panel.encoding));
     });

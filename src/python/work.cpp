@@ -18,10 +18,10 @@ constexpr std::chrono::milliseconds between_looks{50};
 /// What the working thread reports, for the waiting one to see.
 class Watched : public Job {
   public:
-    struct Seen {
+    struct ReportedProgress {
         std::string stage;
         std::int64_t done, units;
-        bool operator==(const Seen&) const = default;
+        bool operator==(const ReportedProgress&) const = default;
     };
 
     void stage(std::string_view name, std::int64_t units) override {
@@ -34,7 +34,7 @@ class Watched : public Job {
     bool cancelled() const override { return cancelled_; }
 
     void cancel() { cancelled_ = true; }
-    Seen seen() const {
+    ReportedProgress seen() const {
         const std::lock_guard lock(naming_);
         return {name_, done_, units_};
     }
@@ -48,10 +48,10 @@ class Watched : public Job {
 };
 
 /// With Python's lock held. Throws nb::python_error.
-void look(const nb::object& progress, const Watched& job, Watched::Seen& last) {
+void look(const nb::object& progress, const Watched& job, Watched::ReportedProgress& last) {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
     if (progress.is_none()) return;
-    Watched::Seen now = job.seen();
+    Watched::ReportedProgress now = job.seen();
     if (now.stage.empty() || now == last) return;
     last = std::move(now);
     progress(last.stage, last.done, last.units);
@@ -61,7 +61,7 @@ void look(const nb::object& progress, const Watched& job, Watched::Seen& last) {
 
 void run(const nb::object& progress, const std::function<void(Job&)>& work) {
     Watched job;
-    Watched::Seen last{"", 0, 0};
+    Watched::ReportedProgress last{"", 0, 0};
     const nb::gil_scoped_release unlocked;
     std::future<void> finished = std::async(std::launch::async, [&] { work(job); });
     try {

@@ -14,7 +14,7 @@
 namespace {
 
 using namespace small_world;
-using Line = LightField::Line;
+using Line = LightField::FieldLine;
 using Answer = LightField::Answer;
 
 constexpr LightField::Width thin{0, 0};

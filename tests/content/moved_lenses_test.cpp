@@ -91,7 +91,7 @@ TEST(MovedLenses, ElementalImagesLookAtTheViewer) {
         std::uniform_real_distribution<double> x(-20, 20), y(-13, 13);
         for (int k = 0; k < 1000; ++k) {
             const double px = x(random), py = y(random);
-            const Pickup::Place p = pickup.place(px, py);
+            const Pickup::ElementalPosition p = pickup.place(px, py);
             if (!p.owned) continue;
             EXPECT_LT(std::abs(p.u), 0.53);
             EXPECT_LT(std::abs(p.v), 0.53);

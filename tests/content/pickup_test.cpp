@@ -60,7 +60,7 @@ TEST_P(PickupTest, CentresFollowThePitchLawAndLookAtTheViewer) {
                 EXPECT_NEAR(line.x + line.mx * (distance - g.rear_principal_mm), 0, 1e-6);
                 EXPECT_NEAR(line.y + line.my * (distance - g.rear_principal_mm), 0, 1e-6);
             }
-            const Pickup::Place place = pickup.place(x * law, y * law);
+            const Pickup::ElementalPosition place = pickup.place(x * law, y * law);
             EXPECT_NEAR(place.u, 0, 1e-9);
             EXPECT_NEAR(place.v, 0, 1e-9);
         }

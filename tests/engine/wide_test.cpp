@@ -192,7 +192,7 @@ TEST(Devices, AreChosenByWordOrExplained) {
             EXPECT_NE(std::string(error.what()).find("allowed: auto, cpu, cuda"), std::string::npos) << error.what();
         }
     }
-    const cuda::Found& found = found_gpus();
+    const cuda::GpuSearch& found = found_gpus();
     if (found.missing.empty()) {
         EXPECT_TRUE(choose_device("auto", "").gpu);
         EXPECT_THROW(choose_device("cuda:1000", ""), InputError);

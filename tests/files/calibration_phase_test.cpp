@@ -66,7 +66,7 @@ double greatest_distance(const Json& json, const CalibrationRequest& request) {
             const auto shines = centroid(d.panel, channel, column, row);
             if (!shines) return 1;
             const double x = pickup.x_mm(column + (*shines)[0]), y = pickup.y_mm(row + (*shines)[1]);
-            const Pickup::Place place = pickup.place(x, y);
+            const Pickup::ElementalPosition place = pickup.place(x, y);
             const double phase = formula.phase(channel, column, height - 1 - row), apart = phase - (place.u + 0.5);
             greatest = std::max(greatest, place.owned ? std::abs(apart - std::round(apart)) : 1);
 

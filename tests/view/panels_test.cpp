@@ -17,13 +17,13 @@ using namespace test;
 class PanelsTest : public testing::Test {
   protected:
     PanelsTest() { lfdsim::test::save(folder / "small.toml", tiny_display); }
-    std::shared_ptr<const ShownPanel> get(const Display& d, const Source& source = {Shown::Kind::model, "built-in:spheres"}) {
+    std::shared_ptr<const ShownPanel> get(const Display& d, const PanelContent& source = {Shown::Kind::model, "built-in:spheres"}) {
         Job job;
         return panels.get(panel_key(source, d, resolve(d)), d, resolve(d), 2, job);
     }
     Display display(const std::vector<std::string>& set = {}) const { return read_display(folder / "small.toml", set); }
 
-    void tell_apart(const Source&, const Display& before, int least_changed, int least_told_apart);
+    void tell_apart(const PanelContent&, const Display& before, int least_changed, int least_told_apart);
 
     TemporaryFolder folder;
     Panels panels;
@@ -57,7 +57,7 @@ TEST_F(PanelsTest, AFileThatChangesIsReadAgain) {
 
 TEST_F(PanelsTest, ScenesThatAreMovedAreThoseMadeThere) {
     Job job;
-    const Source spheres{Shown::Kind::model, "built-in:spheres"};
+    const PanelContent spheres{Shown::Kind::model, "built-in:spheres"};
     for (const std::vector<std::string>& set : {std::vector<std::string>{}, {"array.gap_mm=7.2"}, {"content.depth_mm=-30.0"}}) {
         const Display d = display(set);
         const ContentScene made(built_in_model(), d, resolve(d)), kept = panels.scene(spheres, d, resolve(d), job);
@@ -68,7 +68,7 @@ TEST_F(PanelsTest, ScenesThatAreMovedAreThoseMadeThere) {
 
 // Each number and word of a description is changed in turn. Elemental images that differ must have another key, lest a wrong panel
 // be shown; that equal ones share a key saves time, and must hold where a visitor turns a knob most: eye, diffuser, samples.
-void PanelsTest::tell_apart(const Source& source, const Display& before, int least_changed, int least_told_apart) {
+void PanelsTest::tell_apart(const PanelContent& source, const Display& before, int least_changed, int least_told_apart) {
     Job job;
     const PanelKey key = panel_key(source, before, resolve(before));
     const auto images = [&](const Display& d) {
@@ -140,7 +140,7 @@ TEST_F(PanelsTest, ModelsAndTheirTreesAreInTheBudget) {
     const Geometry g = resolve(d);
     Job job;
     for (const char* name : {"a.obj", "b.obj"}) save_hills(folder / name, 60);
-    const Source a = model_source(folder / "a.obj", d), b = model_source(folder / "b.obj", d);
+    const PanelContent a = model_source(folder / "a.obj", d), b = model_source(folder / "b.obj", d);
     constexpr double all = 1200e6;
     double model = 0, tree = 0;
     {
@@ -176,7 +176,7 @@ TEST_F(PanelsTest, ATreeThatDoesNotFitIsRefused) {
     const Display d = display();
     Job job;
     save_hills(folder / "hills.obj", 150);
-    const Source hills = model_source(folder / "hills.obj", d);
+    const PanelContent hills = model_source(folder / "hills.obj", d);
     Panels few(1200e6);
     static_cast<void>(few.parts(hills, d, job));
     const auto claim = few.budget().claim("", "", few.budget().left() - 2e6);
@@ -227,7 +227,7 @@ TEST_F(PanelsTest, AnImageOfASceneThatChangesIsReadAgain) {
     Image image(8, 8);
     write_image(folder / "grey.png", image);
     const Display d = with_objects(display({"panel.pixels=[192, 108]", "panel.pixel_pitch_mm=0.5"}), folder / "grey.png");
-    const Source before = model_source(model_of(d), d);
+    const PanelContent before = model_source(model_of(d), d);
     const auto black = get(d, before);
     EXPECT_EQ(get(d, model_source(model_of(d), d)), black);
     std::fill(image.rgb.begin(), image.rgb.end(), 0.7f);

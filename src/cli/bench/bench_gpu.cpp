@@ -50,7 +50,7 @@ double rmse(const Image& a, const Image& b) {
 
 void bench_gpu(Bench& bench) {
     bench.heading("GPU: plano-convex lenses, opaque, Schlick, diffuser, 3840 x 2160; its own clock, and with transfers");
-    const cuda::Found& found = found_gpus();
+    const cuda::GpuSearch& found = found_gpus();
     if (!found.missing.empty()) return bench.not_measured("gpu", "all", found.missing);
     const Texels panel = noise_panel(bench_display());
     const SummedPanel summed(panel, bench.settings.threads);

@@ -40,7 +40,7 @@ Json forced_kernel() {
 
 // The GPUs, or what is missing.
 Json gpus() {
-    const cuda::Found& found = found_gpus();
+    const cuda::GpuSearch& found = found_gpus();
     Json all;
     all["toolkit"] = found.toolkit.empty() ? "none when lfdsim was built" : "CUDA " + found.toolkit;
     all["driver"] = found.driver.empty() ? "none" : "up to CUDA " + found.driver;

@@ -79,7 +79,7 @@ class Joining {
 
     void add_vertices(const Model& from, const SceneObject& object, std::size_t number) {
         const Turn turn(object.roll_deg, object.tilt_deg, object.yaw_deg);
-        Box box, turned;
+        PointBounds box, turned;
         for (const std::uint32_t i : from.indices) {
             const float* const p = &from.positions[3 * std::size_t(i)];
             box.add({p[0], p[1], p[2]});
@@ -101,7 +101,7 @@ class Joining {
     }
 
     // Millimetres for each of the file's units.
-    static double scale_of(const SceneObject& object, const Box& box, std::size_t number) {
+    static double scale_of(const SceneObject& object, const PointBounds& box, std::size_t number) {
         if (object.unit_mm) return *object.unit_mm;
         const bool by_height = object.height_mm.has_value();
         const double wanted = by_height ? *object.height_mm : object.width_mm.value_or(0), extent = box.extent(by_height ? 1 : 0);

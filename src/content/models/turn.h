@@ -31,7 +31,7 @@ struct Turn {
 };
 
 /// A box about points.
-struct Box {
+struct PointBounds {
     Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
     void add(const Vec3d& p) {
         for (std::size_t k = 0; k < 3; ++k) {

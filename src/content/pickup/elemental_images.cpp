@@ -56,7 +56,7 @@ class PickupRays {
     }
 
   private:
-    struct Part {  // a ray's x or its y
+    struct RayCoordinate {  // a ray's x or its y
         float origin, direction;
         bool may_hit;  // it may enter the scene's box before its end, behind the scene
     };
@@ -65,7 +65,7 @@ class PickupRays {
         std::vector<float> origin, direction;
         std::vector<int> exists, may_hit;  // -1 or 0
         std::vector<LensMapping::Between> in_table;
-        void add(const Part& part, bool owned) {
+        void add(const RayCoordinate& part, bool owned) {
             origin.push_back(part.origin);
             direction.push_back(part.direction);
             exists.push_back(-int(owned));
@@ -117,7 +117,7 @@ class PickupRays {
     /// Half the scene's box. The slack covers the rounding of positions (about 1e-7 of the box) and of the arithmetic with rays.
     float reach(std::size_t k) const { return float(half_mm_[k] * 1.0001 + 1e-6); }
 
-    Part part(double axis, double slope, std::size_t k) const {
+    RayCoordinate part(double axis, double slope, std::size_t k) const {
         const float origin = float(axis + slope * rise_ - centre_mm_[k]), direction = float(-slope),
                     end = origin + float(2 * half_depth_) * direction;
         const float h = reach(k);
@@ -184,7 +184,7 @@ class PickupRays {
             const int i = column + k % RayBlock::side, j = row + k / RayBlock::side;
             const ShownPoints::Point shown = set.points.of(i, j).value_or(ShownPoints::Point{});
             const NodalLine l = line(set, pickup_.x_mm(i + shown[0]), pickup_.y_mm(j + shown[1]));
-            const Part x = part(l.x, l.mx, 0), y = part(l.y, l.my, 1);
+            const RayCoordinate x = part(l.x, l.mx, 0), y = part(l.y, l.my, 1);
             ray.org_x[k] = x.origin;
             ray.org_y[k] = y.origin;
             ray.dir_x[k] = x.direction;
@@ -220,7 +220,7 @@ struct FieldLight {
             block.hit.of[k] = 0;
             if (!block.exists.of[k]) continue;
             const float top = ray.org_z[k], x = ray.org_x[k] + top * ray.dir_x[k], y = ray.org_y[k] + top * ray.dir_y[k];
-            const LightField::Line line{x, y, x - distance * ray.dir_x[k], y - distance * ray.dir_y[k]};
+            const LightField::FieldLine line{x, y, x - distance * ray.dir_x[k], y - distance * ray.dir_y[k]};
             float light[3];
             const LightField::Answer answer = field.light(line, {beam.width_per_t, top - beam.waist_t}, light);
             cameras += answer == LightField::Answer::beside_cameras;
@@ -238,7 +238,7 @@ std::vector<LensMapping> mappings_for(const Display& display, const Geometry& ge
     return display.content.pickup == PickupKind::nodal ? std::vector<LensMapping>() : lens_mappings(display, geometry, threads);
 }
 
-Wanted whole_panel(const Display& display) {
+RayRequest whole_panel(const Display& display) {
     const int width = int(display.panel.pixels[0]), height = int(display.panel.pixels[1]);
     return {width, height, {0, 0, width, height}, PickupRays::rays_of(display), by_channel(display)};
 }

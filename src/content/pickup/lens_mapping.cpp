@@ -73,18 +73,18 @@ class LensMapping::Tracing {
                 if (!strips_ || y == 0) see(Point{x * reach[0], y * reach[1]});
     }
 
-    struct Box {
+    struct SearchBox {
         Point from, to;
     };
-    struct Found {
+    struct TracedAim {
         LineShift line{};
         int rays = 0;
-        Box box{};  // of the rays
+        SearchBox box{};  // of the rays
     };
     /// Rays through evenly spread points of the aperture, the same for all panel points. They are mirror images of one another, so
     /// that a thin lens's lines are nodal, and stand in no rows, of which a whole one would pass the rim at once.
-    Found from(Point u) const {
-        Found found;
+    TracedAim from(Point u) const {
+        TracedAim found;
         std::vector<Line> lines;
         lines.reserve(aperture_rays);
         const auto add = [&](Point at) {
@@ -113,7 +113,7 @@ class LensMapping::Tracing {
         found.line = {rounded(line[0]), rounded(line[1]), rounded(line[2]), rounded(line[3])};
         return found;
     }
-    std::optional<LineShift> one(Point u, const Box& box, const RayPlace& place) const {
+    std::optional<LineShift> one(Point u, const SearchBox& box, const RayPlace& place) const {
         const Point at{box.from[0] + place[2] * (box.to[0] - box.from[0]),
                        strips_ ? 0 : box.from[1] + place[3] * (box.to[1] - box.from[1])};
         const auto line = shift(u, at);
@@ -208,17 +208,17 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
         nodes_[k] = 2 * steps[k] + 1;
         per_mm_[k] = steps[k] > 0 ? steps[k] / reach_[k] : 0;
     }
-    const Tracing::Found axis = tracing.from({0, 0});
+    const Tracing::TracedAim axis = tracing.from({0, 0});
     for (int k = 0; axis.rays > 0 && int(places_.size()) < rays && k < 64 * rays; ++k)
         if (const RayPlace place = spread<4>(k); tracing.one({0, 0}, axis.box, place)) places_.push_back(place);
 
     width_ = nodes_[0] + 2;
     const std::size_t size =
         std::size_t(width_) * std::size_t(nodes_[1] + 3);  // strips have one row of nodes, of four that are read
-    const Table empty{std::vector<LineShift>(size), std::vector<float>(size), true};
+    const MappingTable empty{std::vector<LineShift>(size), std::vector<float>(size), true};
     lines_ = empty;
     rays_.assign(places_.size(), empty);
-    const auto set = [&](Table& table, int i, int j, const LineShift& line, float light) {
+    const auto set = [&](MappingTable& table, int i, int j, const LineShift& line, float light) {
         for (const int x : {-1, 1})
             for (const int y : {-1, 1}) {
                 const std::size_t n = at(steps[0] + x * i, steps[1] + y * j);
@@ -231,7 +231,7 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
         tbb::parallel_for(0, steps[1] + 1, [&](int j) {
             for (int i = 0; i <= steps[0]; ++i) {
                 const Point u{steps[0] > 0 ? i * reach_[0] / steps[0] : 0, steps[1] > 0 ? j * reach_[1] / steps[1] : 0};
-                const Tracing::Found found = tracing.from(u);
+                const Tracing::TracedAim found = tracing.from(u);
                 set(lines_, i, j, found.line, float(found.rays) / float(std::max(axis.rays, 1)));
                 for (std::size_t k = 0; k < rays_.size(); ++k) {
                     const auto line = found.rays > 0 ? tracing.one(u, found.box, places_[k]) : std::optional<LineShift>();
@@ -241,12 +241,12 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
         });
     });
     complete(lines_);
-    for (Table& table : rays_) complete(table);
+    for (MappingTable& table : rays_) complete(table);
 }
 
 /// Extrapolates the lines around the table and into the dark, node by node from where there is light, so that they stay smooth up
 /// to its border.
-void LensMapping::complete(Table& table) const {
+void LensMapping::complete(MappingTable& table) const {
     const int height = nodes_[1] + 2;
     std::vector<char> known(table.light.size());
     for (std::size_t n = 0; n < known.size(); ++n) known[n] = table.light[n] > 0;
@@ -287,7 +287,7 @@ LensMapping::Between LensMapping::between(std::size_t axis, double u) const {
     return {whole, cubic(float(place - whole))};
 }
 
-bool LensMapping::Table::at(int width, const Between& ux, const Between& uy, LineShift& out) const {
+bool LensMapping::MappingTable::at(int width, const Between& ux, const Between& uy, LineShift& out) const {
     // Node n of the mapping is n + 1 in the table: the first of the four is one before.
     const std::size_t corner = std::size_t(uy.first * width + ux.first), step = std::size_t(width);
     const auto lit = [&](std::size_t n) { return light[n] > 0; };

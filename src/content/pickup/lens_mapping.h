@@ -52,7 +52,7 @@ class LensMapping {
     double share(int i, int j) const { return double(lines_.light[at(i, j)]); }
 
   private:
-    struct Table {
+    struct MappingTable {
         std::vector<LineShift> shift;
         std::vector<float> light;  // 0: none gets through
         bool all_lit = true;
@@ -60,13 +60,13 @@ class LensMapping {
     };
     class Tracing;
     std::size_t at(int i, int j) const { return std::size_t((j + 1) * width_ + i + 1); }
-    void complete(Table&) const;
+    void complete(MappingTable&) const;
 
     std::array<int, 2> nodes_;
     int width_;                             // of tables, which have one more node around the others
     std::array<double, 2> reach_, per_mm_;  // per_mm: nodes
-    Table lines_;
-    std::vector<Table> rays_;
+    MappingTable lines_;
+    std::vector<MappingTable> rays_;
     std::vector<RayPlace> places_;
 };
 

@@ -45,7 +45,7 @@ Image view(const Display& display, const Geometry& geometry, const PatternOption
         return 0.75 * display.panel.pixel_pitch_mm / (pickup.lattice().pitch[axis] * pickup.scale);
     };
     return fill(display, [&](int column, int row, float* rgb) {
-        const Pickup::Place p = pickup.place(pickup.x_mm(column), pickup.y_mm(row));
+        const Pickup::ElementalPosition p = pickup.place(pickup.x_mm(column), pickup.y_mm(row));
         grey(p.owned && std::abs(p.u - o.view_x) <= reach(0) && std::abs(p.v - o.view_y) <= reach(1), rgb);
     });
 }

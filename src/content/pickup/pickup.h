@@ -92,11 +92,11 @@ class Pickup {
 
     /// Where the panel point (x, y) lies in its elemental image: in the array's axes, units of the elemental pitch, 0 at the
     /// centre, -0.5 .. 0.5.
-    struct Place {
+    struct ElementalPosition {
         double u, v;
         bool owned;
     };
-    Place place(double x, double y) const {
+    ElementalPosition place(double x, double y) const {
         const NodalLine l = line(x, y);
         auto off = optics::to_array(lattice_, x - l.x * scale, y - l.y * scale);
         if (moved_) {
@@ -108,7 +108,7 @@ class Pickup {
 
     /// Whether the panel point (x, y) is nearer than `margin` mm to the border of an elemental image.
     bool near_border(double x, double y, double margin) const {
-        const Place at = place(x, y);
+        const ElementalPosition at = place(x, y);
         return !optics::in_cell(lattice_, at.u * lattice_.pitch[0], at.v * lattice_.pitch[1], -margin / scale);
     }
 

@@ -15,7 +15,7 @@ namespace lfdsim {
 
 /// The rays to cast: `samples` for each pixel of `crop`, in a frame of width x height pixels. The mean of those that exist is the
 /// pixel's light. Or as many for each channel: the red of the first ones, then the green of others, then the blue.
-struct Wanted {
+struct RayRequest {
     int width, height;
     Rect crop;
     std::int64_t samples = 1;
@@ -27,7 +27,7 @@ struct Wanted {
 /// never to the crop or to a thread's share, so that every pixel comes out the same however the frame is divided. Throws InputError
 /// for a crop outside the frame or a bad thread count.
 template <class Light, class Fill>
-Picture cast(const Light& light_of, const Wanted& frame, int threads, const char* stage, Job& job, const Fill& fill) {
+Picture cast(const Light& light_of, const RayRequest& frame, int threads, const char* stage, Job& job, const Fill& fill) {
     const int width = frame.width, height = frame.height;
     const Rect& crop = frame.crop;
     const std::int64_t samples = frame.by_channel ? 3 * frame.samples : frame.samples;

@@ -13,18 +13,18 @@ namespace lfdsim {
 namespace {
 
 /// A pixel and its neighbour around a place along one axis, and the neighbour's share.
-struct Neighbours {
+struct PixelPair {
     int low, high;
     float share;
 };
-Neighbours neighbours(float place, int size) {
+PixelPair neighbours(float place, int size) {
     const float at = std::clamp(place - 0.5f, 0.f, float(size - 1));
     const int low = int(at);
     return {low, std::min(low + 1, size - 1), at - float(low)};
 }
 
 void bilinear(const Image& image, float x, float y, float light[3]) {
-    const Neighbours column = neighbours(x, image.width), row = neighbours(y, image.height);
+    const PixelPair column = neighbours(x, image.width), row = neighbours(y, image.height);
     const float* const a = image.at(column.low, row.low);
     const float* const b = image.at(column.high, row.low);
     const float* const c = image.at(column.low, row.high);
@@ -120,7 +120,7 @@ struct LightField::Cell {
 
 // The places of a grid's cameras may be uneven: the point (s, t) between four of them whose bilinear mean is the line's place, by
 // Newton's method, in the cell where both are within 0 .. 1.
-bool LightField::cell_of(const Line& line, Cell& cell) const {
+bool LightField::cell_of(const FieldLine& line, Cell& cell) const {
     const double x = double(line.camera_x), y = double(line.camera_y);
     const int columns = grid_.columns, rows = grid_.rows;
     int i = columns > 1 ? int(part_of(column_x_, x, true)) : 0, j = rows > 1 ? int(part_of(row_y_, y, false)) : 0;
@@ -162,7 +162,7 @@ bool LightField::cell_of(const Line& line, Cell& cell) const {
 // Along the line from the viewer's side on, a camera sees its points in the focus's plane on a straight way, linear in kappa:
 // X = focus + (camera of the line - this camera) kappa. The line meets the scene where kappa falls below that of the map there.
 // Where it falls by a leap, the line goes behind something that this camera sees, and may come out again.
-bool LightField::surface(const KappaMap& map, const std::array<double, 2>& camera, const Line& line, float& kappa) const {
+bool LightField::surface(const KappaMap& map, const std::array<double, 2>& camera, const FieldLine& line, float& kappa) const {
     constexpr int most_steps = 512;
     const float dx = grid_.columns > 1 ? line.camera_x - float(camera[0]) : 0,
                 dy = grid_.rows > 1 ? line.camera_y - float(camera[1]) : 0;
@@ -171,7 +171,7 @@ bool LightField::surface(const KappaMap& map, const std::array<double, 2>& camer
     const auto of_map = [&](float k) {
         const float x = (line.focus_x + dx * k) * per_x + 0.5f * float(map.width),
                     y = 0.5f * float(map.height) - (line.focus_y + dy * k) * per_y;
-        const Neighbours column = neighbours(x, map.width), row = neighbours(y, map.height);
+        const PixelPair column = neighbours(x, map.width), row = neighbours(y, map.height);
         const float a = map.at(column.low, row.low), b = map.at(column.high, row.low), c = map.at(column.low, row.high),
                     d = map.at(column.high, row.high);
         const auto [low, high] = std::minmax({a, b, c, d});
@@ -197,7 +197,7 @@ bool LightField::surface(const KappaMap& map, const std::array<double, 2>& camer
     return false;
 }
 
-bool LightField::read(std::size_t view, const Line& line, float kappa, const Width& width, float light[3]) const {
+bool LightField::read(std::size_t view, const FieldLine& line, float kappa, const Width& width, float light[3]) const {
     const auto& camera = grid_.camera_mm[view];
     const float x = line.focus_x + (grid_.columns > 1 ? (line.camera_x - float(camera[0])) * kappa : 0),
                 y = line.focus_y + (grid_.rows > 1 ? (line.camera_y - float(camera[1])) * kappa : 0);
@@ -214,7 +214,7 @@ bool LightField::read(std::size_t view, const Line& line, float kappa, const Wid
     return true;
 }
 
-LightField::Answer LightField::light(const Line& line, const Width& width, float light[3]) const {
+LightField::Answer LightField::light(const FieldLine& line, const Width& width, float light[3]) const {
     std::fill_n(light, 3, 0.f);
     Cell cell{};
     if (!cell_of(line, cell)) return Answer::beside_cameras;

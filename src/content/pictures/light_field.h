@@ -39,7 +39,7 @@ class LightField {
     LightField(ViewGrid, std::vector<Image> views, std::vector<KappaMap> = {});
 
     /// A line, by where it passes the focus's plane and the cameras', mm from the focus's middle.
-    struct Line {
+    struct FieldLine {
         float focus_x, focus_y, camera_x, camera_y;
     };
     enum class Answer {
@@ -54,16 +54,16 @@ class LightField {
     struct Width {
         float per_mm, waist_z_mm;
     };
-    Answer light(const Line&, const Width&, float light[3]) const;
+    Answer light(const FieldLine&, const Width&, float light[3]) const;
 
     const ViewGrid& grid() const { return grid_; }
     bool by_depth() const { return by_depth_; }
 
   private:
     struct Cell;  // the four cameras around a line
-    bool cell_of(const Line&, Cell&) const;
-    bool surface(const KappaMap&, const std::array<double, 2>& camera, const Line&, float& kappa) const;
-    bool read(std::size_t view, const Line&, float kappa, const Width&, float light[3]) const;
+    bool cell_of(const FieldLine&, Cell&) const;
+    bool surface(const KappaMap&, const std::array<double, 2>& camera, const FieldLine&, float& kappa) const;
+    bool read(std::size_t view, const FieldLine&, float kappa, const Width&, float light[3]) const;
 
     ViewGrid grid_;
     std::vector<ViewPyramid> views_;

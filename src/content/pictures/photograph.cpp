@@ -10,13 +10,13 @@ namespace {
 Vec3d unit(const Vec3d& a) { return times(1 / std::sqrt(dot(a, a)), a); }
 
 /// The camera's frame: rays are axis + slopes, so that their t is the depth along the axis.
-struct Frame {
+struct CameraFrame {
     Vec3d axis, right, up;
     int width, height;
     double slope;               // of a pixel
     double pupil_mm, focus_mm;  // radius of the pupil, 0: a pinhole; depth in which its rays meet again
 
-    Frame(const Camera& camera, const Geometry& geometry) {
+    CameraFrame(const Camera& camera, const Geometry& geometry) {
         const Vec3d towards = minus(camera.target_mm, camera.position_mm);
         axis = unit(towards);
         right = unit(cross(axis, camera.up));
@@ -33,7 +33,7 @@ struct Frame {
 /// its eight corners in the frame (right, up, ahead). Seen from a place o in the pupil a point's image is shifted by
 /// o (1/focus - 1/depth) against the pinhole's.
 template <class Corner>
-Rect pixels_of_box(const Frame& frame, const Corner& corner) {
+Rect pixels_of_box(const CameraFrame& frame, const Corner& corner) {
     double x0 = frame.width, y0 = frame.height, x1 = 0, y1 = 0;
     for (int n = 0; n < 8; ++n) {
         const Vec3d p = corner(n);
@@ -138,7 +138,7 @@ class PhotographRays {
         }
     }
 
-    Frame frame_;
+    CameraFrame frame_;
     Render render_;
     bool filtered_;
     Vec3d from_;    // the camera, from the scene's centre
@@ -151,7 +151,7 @@ class PhotographRays {
 Picture reference_photograph(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads,
                              std::optional<Rect> crop, Job& job) {
     const PhotographRays rays(display, geometry, scene);
-    const Wanted wanted{rays.width(), rays.height(), crop.value_or(Rect{0, 0, rays.width(), rays.height()}), rays.samples()};
+    const RayRequest wanted{rays.width(), rays.height(), crop.value_or(Rect{0, 0, rays.width(), rays.height()}), rays.samples()};
     return cast(SceneLight{scene.impl(), rays.beam()}, wanted, threads, "photograph", job, rays);
 }
 

@@ -24,7 +24,7 @@ struct Placing {
 };
 
 // The middle of its box, whose height is given.
-Placing of_model(const Box& box, double height_mm) {
+Placing of_model(const PointBounds& box, double height_mm) {
     const double extent = box.extent(1), scale = height_mm / extent;
     if (!(extent > 0) || !std::isfinite(scale))
         throw InputError(
@@ -35,7 +35,7 @@ Placing of_model(const Box& box, double height_mm) {
 }
 
 // Objects keep their places and sizes about their own origin unless they are scaled together.
-Placing of_objects(const Box& box, const std::optional<double>& height_mm) {
+Placing of_objects(const PointBounds& box, const std::optional<double>& height_mm) {
     const double scale = height_mm ? *height_mm / box.extent(1) : 1;
     if (!(scale > 0) || !std::isfinite(scale))
         throw InputError("content.height_mm",
@@ -48,7 +48,7 @@ void pose(ContentScene::Impl& scene, const Display& display, const Geometry& geo
     const Model& model = *scene.model;
     const Content& content = display.content;
     const Turn turn(0, content.tilt_deg, content.yaw_deg);
-    Box box;
+    PointBounds box;
     for (const std::uint32_t i : model.indices) box.add(turn(&model.positions[3 * std::size_t(i)]));
     const bool together = !content.objects.empty();
     const auto [scale, origin] =

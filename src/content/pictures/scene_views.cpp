@@ -84,7 +84,7 @@ struct DepthLight {
 Picture scene_view(const ContentScene& scene, const Geometry& geometry, const ViewGrid& grid, int column, int row,
                    const ViewMaking& making, Job& job) {
     const GridViewRays rays(scene, geometry, grid, column, row, making);
-    const Wanted wanted{making.width, making.height, {0, 0, making.width, making.height}, making.samples};
+    const RayRequest wanted{making.width, making.height, {0, 0, making.width, making.height}, making.samples};
     return cast(SceneLight{scene.impl(), rays.beam()}, wanted, making.threads, "view", job, rays);
 }
 
@@ -92,7 +92,7 @@ Picture scene_view_depth(const ContentScene& scene, const Geometry& geometry, co
                          const ViewMaking& making, Job& job) {
     const ViewMaking middles{making.width, making.height, 1, making.threads};
     const GridViewRays rays(scene, geometry, grid, column, row, middles);
-    const Wanted wanted{making.width, making.height, {0, 0, making.width, making.height}};
+    const RayRequest wanted{making.width, making.height, {0, 0, making.width, making.height}};
     return cast(DepthLight{scene.impl(), rays.below_camera()}, wanted, making.threads, "depth of view", job, rays);
 }
 

@@ -13,11 +13,11 @@ namespace {
 constexpr int lanes = Lanes::count;
 
 /// The hit triangles: corner numbers and barycentric weights.
-struct Place {
+struct TriangleHit {
     std::uint32_t triangle[lanes], corner[3][lanes];
     Lanes weight[3];
 
-    Place(const Model& m, const RTCHit16& hit, const Lanes::Mask& valid) {
+    TriangleHit(const Model& m, const RTCHit16& hit, const Lanes::Mask& valid) {
         for (int k = 0; k < lanes; ++k) {
             triangle[k] = hit.primID[k] & std::uint32_t(valid.of[k]);  // without a hit: the first
             weight[1].of[k] = hit.u[k];
@@ -50,7 +50,7 @@ struct Place {
 void ContentScene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, const Lanes& width_mm, Lanes* out,
                                Lanes* through) const {
     const Model& m = *model;
-    const Place place(m, hit, valid);
+    const TriangleHit place(m, hit, valid);
     Lanes n[3], shine;
     place.interpolate<3>(m.normals, n);
     for (int k = 0; k < lanes; ++k) {

@@ -14,7 +14,7 @@ bool any_of(const std::string& format, std::initializer_list<const char*> names)
 
 }  // namespace
 
-Turn turn(const aiScene& scene, const std::string& format, const std::string& up) {
+AxesTurn turn(const aiScene& scene, const std::string& format, const std::string& up) {
     // Assimp turns the first list to +y up itself; the second is +z up by specification or by its program. The rest is +y up: by
     // specification (glTF, X3D, Collada after Assimp's own turn) or by custom (OBJ, PLY, OFF).
     const bool turned =
@@ -23,8 +23,8 @@ Turn turn(const aiScene& scene, const std::string& format, const std::string& up
                                 "3D GameStudio Heightmap"});
     if (int axis = 1; scene.mMetaData && scene.mMetaData->Get("UpAxis", axis)) z_up = axis == 2;
     if (!up.empty()) z_up = up == "z";
-    if (turned) return Turn(up == "y" ? Turn::y_to_z : Turn::none);
-    return Turn(z_up ? Turn::z_to_y : Turn::none);
+    if (turned) return AxesTurn(up == "y" ? AxesTurn::y_to_z : AxesTurn::none);
+    return AxesTurn(z_up ? AxesTurn::z_to_y : AxesTurn::none);
 }
 
 }  // namespace lfdsim::reader

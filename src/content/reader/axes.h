@@ -7,10 +7,10 @@
 namespace lfdsim::reader {
 
 /// A quarter turn about x, or none, that leads from the axes Assimp hands over to +y up, front towards +z.
-class Turn {
+class AxesTurn {
   public:
     enum Quarter { none, z_to_y, y_to_z };
-    explicit Turn(Quarter quarter) : quarter_(quarter) {}
+    explicit AxesTurn(Quarter quarter) : quarter_(quarter) {}
 
     aiVector3D operator()(const aiVector3D& v) const {
         switch (quarter_) {
@@ -28,6 +28,6 @@ class Turn {
 };
 
 /// `format`: the name of Assimp's importer; `up`: "y" or "z", the file's axis that points up, "" by format.
-Turn turn(const aiScene& scene, const std::string& format, const std::string& up);
+AxesTurn turn(const aiScene& scene, const std::string& format, const std::string& up);
 
 }  // namespace lfdsim::reader

@@ -59,7 +59,7 @@ bool shines(const aiMaterial& material) {
 
 class Conversion {
   public:
-    Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const Turn& turn,
+    Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const AxesTurn& turn,
                const std::map<std::string, Tiling>& tilings, const NotShown& not_shown)
         : scene_(scene), textures_(scene, folder), turn_(turn), tilings_(tilings), left_out_(not_shown) {
         linear_ = format.starts_with("glTF");
@@ -223,7 +223,7 @@ class Conversion {
 
     const aiScene& scene_;
     Textures textures_;
-    Turn turn_;
+    AxesTurn turn_;
     const std::map<std::string, Tiling>& tilings_;  // by the materials' names
     bool linear_;
     std::map<std::tuple<unsigned, bool, bool>, std::uint32_t> known_;

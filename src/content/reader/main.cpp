@@ -15,7 +15,7 @@
 
 namespace {
 
-class Writer {
+class ModelWriter {
   public:
     template <class T>
     void value(const T& x) {
@@ -47,7 +47,7 @@ int answer(int count, char** arguments) {
         std::fputs("lfdsim-model-reader is started by lfdsim, not by hand\n", stderr);
         return 2;
     }
-    Writer out;
+    ModelWriter out;
     try {
         lfdsim::reader::confine(std::atoll(arguments[3]), std::atof(arguments[4]));
         lfdsim::reader::allow_for(arguments[2]);

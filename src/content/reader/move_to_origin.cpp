@@ -13,7 +13,7 @@ double largest_of(const Place& p) { return std::max({std::abs(p.x), std::abs(p.y
 
 /// What the meshes of a scene have in common.
 struct Extent {
-    Middle middle;      // in the scene's coordinates
+    BoxMiddle middle;   // in the scene's coordinates
     double vertex = 0;  // the largest number of a vertex, in its node's coordinates
     // The largest numbers of nodes' own translations. The rounding of one alone moves everything alike.
     double translation = 0, second_translation = 0;

@@ -12,7 +12,7 @@ using Place = aiVector3t<double>;
 
 /// The middle of a box about places, which are taken relative to it where it lies further from the origin than the box is long:
 /// there a float would round by more than about 1e-7 of the size.
-class Middle {
+class BoxMiddle {
   public:
     void add(const Place& p) {
         for (unsigned k = 0; k < 3; ++k) {

@@ -3,7 +3,9 @@
 
 namespace lfdsim::cuda {
 
-Found find() { return {{}, "this lfdsim was built without a CUDA toolkit; install one (12.1 or newer), then build again", "", ""}; }
+GpuSearch find() {
+    return {{}, "this lfdsim was built without a CUDA toolkit; install one (12.1 or newer), then build again", "", ""};
+}
 
 std::unique_ptr<wide::Queue> open(int) { throw wide::DeviceError(find().missing); }
 

@@ -16,13 +16,13 @@ struct Gpu {
 };
 
 /// What was found, and what is missing, as a message: no CUDA toolkit at build time, no NVIDIA driver, ...
-struct Found {
+struct GpuSearch {
     std::vector<Gpu> gpus;
     std::string missing;  // empty: there is a GPU that can be used
     std::string toolkit;  // CUDA version that the kernels were compiled with; empty: none
     std::string driver;   // newest CUDA version that the driver supports; empty: no driver
 };
-Found find();
+GpuSearch find();
 
 /// Throws DeviceError. 0 <= gpu < find().gpus.size().
 std::unique_ptr<wide::Queue> open(int gpu);

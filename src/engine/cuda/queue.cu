@@ -150,8 +150,8 @@ class CudaQueue : public wide::Queue {
 
 }  // namespace
 
-Found find() {
-    Found found;
+GpuSearch find() {
+    GpuSearch found;
     found.toolkit = text(CUDART_VERSION);
     int version = 0;
     if (cudaDriverGetVersion(&version) == cudaSuccess && version > 0) found.driver = text(version);

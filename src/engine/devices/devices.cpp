@@ -79,7 +79,7 @@ ChosenDevice choose_device(const std::string& wanted, const std::string& kernel)
     const bool cpu_kernel = !kernel.empty() || std::getenv("LFDSIM_KERNEL");
     if (word == "cpu" || (word.empty() && cpu_kernel) || (word == "auto" && cpu_kernel)) return {};
     if (word.empty() || word == "auto") {
-        const cuda::Found& found = found_gpus();
+        const cuda::GpuSearch& found = found_gpus();
         for (std::size_t k = 0; k < found.gpus.size(); ++k)
             if (found.gpus[k].why_not.empty()) return {int(k), false};
         return {};
@@ -87,7 +87,7 @@ ChosenDevice choose_device(const std::string& wanted, const std::string& kernel)
     const std::optional<int> n = gpu_number(word);
     if (!n) throw InputError(where, "unknown device '" + word + "'; allowed: auto, cpu, cuda, cuda:N");
     if (!kernel.empty()) throw InputError(where + ", --kernel", "'" + kernel + "' is a CPU kernel; give only one of the two");
-    const cuda::Found& found = found_gpus();
+    const cuda::GpuSearch& found = found_gpus();
     if (!found.missing.empty()) throw InputError(where, word + ": " + found.missing);
     if (std::size_t(*n) >= found.gpus.size())
         throw InputError(where, word + ": the last one is cuda:" + std::to_string(found.gpus.size() - 1));

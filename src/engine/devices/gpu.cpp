@@ -116,8 +116,8 @@ auto on_gpu(const ChosenDevice& device, Do do_it) -> std::optional<decltype(do_i
 
 }  // namespace
 
-const cuda::Found& found_gpus() {
-    static const cuda::Found found = cuda::find();
+const cuda::GpuSearch& found_gpus() {
+    static const cuda::GpuSearch found = cuda::find();
     return found;
 }
 

@@ -19,7 +19,7 @@
 namespace lfdsim {
 
 /// The result of the first cuda::find(), which takes a while.
-const cuda::Found& found_gpus();
+const cuda::GpuSearch& found_gpus();
 
 /// Why the CPU has done a GPU's work in this process so far: the first reason for each GPU, with its name. Empty: it has not.
 std::vector<std::string> gpus_given_up();

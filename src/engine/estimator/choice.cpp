@@ -135,7 +135,7 @@ Choice::Choice(const Display& display, const Geometry& geometry, const std::vect
 
 Choice::Light Choice::filtered_at(Kernel kernel, const std::vector<Rect>& places, int strata) const {
     Light sum;
-    for (const Part& part : filtered_) {
+    for (const GaussianBox& part : filtered_) {
         Tile tile = part.work.tile;
         tile.strata = filtered_.size() == 1 ? strata : tile.strata;
         const Light light = light_at(kernel, tile, places);
@@ -229,7 +229,7 @@ std::int64_t Choice::render(Kernel kernel, const RegionChoice& choice, const Til
         const auto row = [&](std::int32_t y) {
             return of.out + (std::int64_t(y - of.crop_y) * of.crop_width + of.x0 - of.crop_x) * 3;
         };
-        for (const Part& part : filtered_) {
+        for (const GaussianBox& part : filtered_) {
             run(part.work, part.work.tile.strata, 0);
             for (std::int32_t y = of.y0; y < of.y1; ++y)
                 for (std::size_t k = 0; k < width; ++k) sum[std::size_t(y - of.y0) * width + k] += part.weight * row(y)[k];

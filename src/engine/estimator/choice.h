@@ -48,15 +48,15 @@ class Choice {
     Light points_at(Kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition) const;
 
     /// A display whose pictures add up to that by filtered light: one box of the diffuser's bell.
-    struct Part {
-        Part(const EvenPart& of, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
-             const RenderOptions& options)
+    struct GaussianBox {
+        GaussianBox(const EvenPart& of, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
+                    const RenderOptions& options)
             : work(of.display, geometry, panel, options), weight(of.weight) {}
         Work work;
         float weight;
     };
     Work points_;
-    std::list<Part> filtered_;
+    std::list<GaussianBox> filtered_;
     std::vector<int> strata_;             // an axis, of filtered light, the fewest first
     std::optional<std::uint32_t> given_;  // points a pixel, where the description has a number of samples
     double light_ = 0;                    // of the frame, root mean square

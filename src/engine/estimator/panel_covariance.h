@@ -52,11 +52,11 @@ struct TwoSpreads {
 /// across for each of them; and both over `across` as well.
 template <class F>
 struct LeaningLines {
-    struct Line {
+    struct LeaningLine {
         F along, slope;
     };
     F place[2];  // column, row of the middle, from a base
-    Line one, other;
+    LeaningLine one, other;
     F across, weight;
 };
 
@@ -157,7 +157,7 @@ LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& b
         const auto line_of = [&](const PanelCovariance<F>& spread) {
             const F along = sqrt(axis == 0 ? spread.wide2 : spread.high2), lean = quotient(spread.lean2, max(along, tiny));
             across2 = across2 + max((axis == 0 ? spread.high2 : spread.wide2) - lean * lean, zero);
-            return typename LeaningLines<F>::Line{along, quotient(lean, max(along, tiny))};
+            return typename LeaningLines<F>::LeaningLine{along, quotient(lean, max(along, tiny))};
         };
         LeaningLines<F> lines{{column, row}, line_of(square), line_of(others), zero, select(some, weight, zero)};
         lines.across = sqrt(across2);

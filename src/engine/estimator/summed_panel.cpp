@@ -59,11 +59,11 @@ float scale_of(const SummedImage& image) {
 }
 
 // The summed-area table of an image, and the light of one unit.
-struct Table {
+struct SummedTable {
     std::unique_ptr<std::uint32_t[]> sums;
     float light_per_unit;
 
-    Table(const SummedImage& image, tbb::task_arena& arena) {
+    SummedTable(const SummedImage& image, tbb::task_arena& arena) {
         const std::int64_t columns = image.columns, rows = image.rows, pitch = (columns + 1) * 4;
         sums.reset(new std::uint32_t[std::size_t(pitch * (rows + 1))]);  // not cleared
         detail::want_huge_pages(sums.get(), std::size_t(pitch * (rows + 1)) * sizeof(std::uint32_t));
@@ -93,9 +93,9 @@ struct Table {
     }
 };
 
-struct Planes {
+struct SummedPlanes {
     std::vector<Texels> picked;
-    std::vector<Table> tables;
+    std::vector<SummedTable> tables;
     std::vector<SummedImage> all;
     std::shared_ptr<GpuPanels> on_gpus = std::make_shared<GpuPanels>();
 };
@@ -113,16 +113,16 @@ struct SummedPanel::Parts {
     SummedImage image;
     tbb::task_arena arena;
     std::mutex mutex;
-    std::map<PanelReading, Planes> of;
+    std::map<PanelReading, SummedPlanes> of;
 
-    Planes made(const PanelReading& reading) {
-        Planes made;
+    SummedPlanes made(const PanelReading& reading) {
+        SummedPlanes made;
         for (const PanelPlane& plane : reading.planes) {
             made.all.push_back(image);
             SummedImage& one = made.all.back();
             if (made.all.size() > 1) one = unsummed(made.picked.emplace_back(picked(image, plane, arena)));
             if (!reading.summed) continue;
-            const Table& table = made.tables.emplace_back(one, arena);
+            const SummedTable& table = made.tables.emplace_back(one, arena);
             one.sums = table.sums.get();
             one.light_per_unit = table.light_per_unit;
         }
@@ -141,7 +141,7 @@ SummedPanel::SummedPanel(const Texels& panel, int threads) : parts_(std::make_un
 
 const std::vector<SummedImage>& SummedPanel::planes(const PanelReading& reading) const {
     const std::lock_guard lock(parts_->mutex);
-    Planes& wanted = parts_->of[reading];
+    SummedPlanes& wanted = parts_->of[reading];
     if (wanted.all.empty()) wanted = parts_->made(reading);
     return wanted.all;
 }

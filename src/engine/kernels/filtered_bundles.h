@@ -23,15 +23,15 @@ struct SharedFootprints {
 };
 
 /// A range of a stratum along one axis, mm from the axis of its lens.
-struct Range {
+struct StratumRange {
     S from, to;
     S middle() const { return S(0.5) * (from + to); }
     S length() const { return to - from; }
 };
 
 /// Shrinks the ranges to the bounding box of the part that a round hole covers; false: it covers none.
-bool clip_to_hole(S radius, Range& x, Range& y) {
-    auto nearest = [](Range r) { return optics::min(optics::max(S(0), r.from), r.to); };
+bool clip_to_hole(S radius, StratumRange& x, StratumRange& y) {
+    auto nearest = [](StratumRange r) { return optics::min(optics::max(S(0), r.from), r.to); };
     const S near_x = nearest(x), near_y = nearest(y);
     if (near_x * near_x + near_y * near_y >= radius * radius) return false;
     const S reach_x = optics::sqrt(radius * radius - near_y * near_y), reach_y = optics::sqrt(radius * radius - near_x * near_x);
@@ -41,11 +41,11 @@ bool clip_to_hole(S radius, Range& x, Range& y) {
 }
 
 /// Shrinks the ranges to the bounding box of the part beside a round hole; false: there is none.
-bool clip_beside_hole(S radius, Range& x, Range& y) {
-    auto farthest = [](Range r) { return optics::max(optics::abs(r.from), optics::abs(r.to)); };
+bool clip_beside_hole(S radius, StratumRange& x, StratumRange& y) {
+    auto farthest = [](StratumRange r) { return optics::max(optics::abs(r.from), optics::abs(r.to)); };
     const S far_x = farthest(x), far_y = farthest(y), r2 = radius * radius;
     if (far_x * far_x + far_y * far_y <= r2) return false;
-    auto clip = [&](Range& r, S far) {
+    auto clip = [&](StratumRange& r, S far) {
         const S near = optics::sqrt(optics::max(r2 - far * far, S(0)));
         if (r.from > -near) r.from = optics::max(r.from, near);
         if (r.to < near) r.to = optics::min(r.to, -near);
@@ -105,7 +105,7 @@ class BundleMaker {
         b.through.state = b.beside.state = State::dark;
         for (int side = 0; side < (display.lit_between && r > 0 ? 2 : 1); ++side) {
             const bool inside = side == 0;
-            Range x{across.from, across.to}, y{up.from, up.to};
+            StratumRange x{across.from, across.to}, y{up.from, up.to};
             if (r > 0 && !(inside ? clip_to_hole(r, x, y) : clip_beside_hole(r, x, y))) continue;
             LitFootprint& to = inside ? b.through : b.beside;
             const Shape shape = probe(i, x, j, y, inside, to.colour);
@@ -118,7 +118,7 @@ class BundleMaker {
     }
 
     /// Traces the probes of a part of stratum (i, j): a grid over x and y, of which those inside the hole count, or those outside.
-    void trace(int i, Range x, int j, Range y, bool inside) {
+    void trace(int i, StratumRange x, int j, StratumRange y, bool inside) {
         const optics::Vec2<S> lens{axis[0].stratum[i].axis, axis[1].stratum[j].axis};
         const S limit = display.hole_radius > 0 ? display.hole_radius * display.hole_radius : S(1e30);
         for (int p = 0; p < optics::most_probes; ++p) {
@@ -132,7 +132,7 @@ class BundleMaker {
 
     /// The bundle of a part of stratum (i, j), inside its hole or beside it. The motion of sharp ones through it is left to
     /// follow(); the light of soft ones goes to `colour`.
-    Shape probe(int i, Range x, int j, Range y, bool inside, S (*colour)[4]) {
+    Shape probe(int i, StratumRange x, int j, StratumRange y, bool inside, S (*colour)[4]) {
         trace(i, x, j, y, inside);
         Shape b = optics::sum_up(probes, per_axis);
         if (b.state != State::sharp) return b;
@@ -160,11 +160,11 @@ class BundleMaker {
         const int parts =
             b.still ? optics::min(FilteredLimits::most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
         for (int k = 0; k < parts * parts; ++k) {
-            auto part = [parts](Range r, int n) {
+            auto part = [parts](StratumRange r, int n) {
                 const S step = (r.to - r.from) / S(parts);
-                return Range{r.from + S(n) * step, r.from + S(n + 1) * step};
+                return StratumRange{r.from + S(n) * step, r.from + S(n + 1) * step};
             };
-            const Range here_x = part(x, k % parts), here_y = part(y, k / parts);
+            const StratumRange here_x = part(x, k % parts), here_y = part(y, k / parts);
             if (parts > 1) trace(i, here_x, j, here_y, inside);
             add_nodes(b, i, here_x, j, here_y, sums);
         }
@@ -177,16 +177,16 @@ class BundleMaker {
     /// Pixels see only parts of the outermost strata. Reduces a sharp footprint, made by probes over all of stratum (i, j), to what
     /// the block's middle sees, and adds the motion of the seen part's middle to that of the bundle (lean). The map from holes to
     /// panel is taken as linear (optics::Slopes); the variance of a box of width w is w^2 / 12, so squared widths subtract.
-    void lean(Shape& b, int i, Range x, int j, Range y) const {
+    void lean(Shape& b, int i, StratumRange x, int j, StratumRange y) const {
         if (!axis[0].stratum[i].cut_off && !axis[1].stratum[j].cut_off) return;
         const optics::Slopes<S> slopes(probes, b);
-        const Range ranges[2] = {x, y};
+        const StratumRange ranges[2] = {x, y};
         const int strata[2] = {i, j};
         S width = b.width * b.width, height = b.height * b.height;
         for (int a = 0; a < 2; ++a) {
             if (!axis[a].stratum[strata[a]].cut_off) continue;
-            const Range all = ranges[a], here = seen_of(a, strata[a], all, 0, 0), right = seen_of(a, strata[a], all, 1, 0),
-                        down = seen_of(a, strata[a], all, 0, 1);
+            const StratumRange all = ranges[a], here = seen_of(a, strata[a], all, 0, 0), right = seen_of(a, strata[a], all, 1, 0),
+                               down = seen_of(a, strata[a], all, 0, 1);
             if (!(here.length() > S(FilteredLimits::part_seen) * all.length()))
                 continue;  // other pixels see parts of it that differ too much from this one
             const S from_all = here.middle() - all.middle(), per = S(1) / S(block.reach),
@@ -206,21 +206,21 @@ class BundleMaker {
     }
 
     /// All that a pixel at (dx, dy) of the block, -1 .. 1, sees along axis a, from the axis of a stratum's lens.
-    Range ends_of(int a, int stratum, S dx, S dy) const {
+    StratumRange ends_of(int a, int stratum, S dx, S dy) const {
         const S start = axis[a].first.at(dx, dy), end = axis[a].last.at(dx, dy), at = axis[a].stratum[stratum].axis;
         return {optics::min(start, end) - at, optics::max(start, end) - at};
     }
 
     /// The part of a range of a stratum along axis a that a pixel at (dx, dy) of the block, -1 .. 1, sees; an empty range at the
     /// nearest end if it sees none.
-    Range seen_of(int a, int stratum, Range r, S dx, S dy) const {
-        const Range seen = ends_of(a, stratum, dx, dy);
+    StratumRange seen_of(int a, int stratum, StratumRange r, S dx, S dy) const {
+        const StratumRange seen = ends_of(a, stratum, dx, dy);
         return {optics::min(optics::max(r.from, seen.from), r.to), optics::max(optics::min(r.to, seen.to), r.from)};
     }
 
     /// Adds the light of the probes' boxes to the sums at the nodes, each weighted with the share of its part of the range that a
     /// pixel at the node sees.
-    void add_nodes(const Shape& b, int i, Range x, int j, Range y, Sums& sums) {
+    void add_nodes(const Shape& b, int i, StratumRange x, int j, StratumRange y, Sums& sums) {
         optics::ProbeBoxes<S> boxes;
         boxes.make<F>(probes, per_axis);
         const bool cut_off[2] = {axis[0].stratum[i].cut_off, axis[1].stratum[j].cut_off};
@@ -247,8 +247,8 @@ class BundleMaker {
     }
 
     /// Multiplies `seen` of each probe by the share of its part of a range along axis a that a pixel at (dx, dy) of the block sees.
-    void narrow(int a, int stratum, Range r, const S* places, S dx, S dy, S* seen) const {
-        const Range ends = ends_of(a, stratum, dx, dy);
+    void narrow(int a, int stratum, StratumRange r, const S* places, S dx, S dy, S* seen) const {
+        const StratumRange ends = ends_of(a, stratum, dx, dy);
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
         const S per = S(0.5) / half,

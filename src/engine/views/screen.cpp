@@ -53,7 +53,7 @@ namespace {
 using Polygon = std::vector<Point>;
 
 /// A line of the plane: points p of its inner side have normal . p <= most.
-struct Side {
+struct HalfPlane {
     Point normal;
     double most;
     double beyond(const Point& p) const { return normal[0] * p[0] + normal[1] * p[1] - most; }
@@ -75,17 +75,17 @@ Polygon array_outline(const Geometry& g) {
 }
 
 /// Where the array reaches over the panel by more than half a lens, the panel's side as the camera sees it on the vertex plane.
-std::vector<Side> panel_sides(const Geometry& g, const Vec3d& camera, const Polygon& array) {
+std::vector<HalfPlane> panel_sides(const Geometry& g, const Vec3d& camera, const Polygon& array) {
     const Lattice<double>& l = g.lattice;
     const double on = g.vertex_plane_mm / camera[2];  // how much of the way from the panel to the camera
-    std::vector<Side> sides;
+    std::vector<HalfPlane> sides;
     for (const std::size_t axis : {0u, 1u})
         for (const double sign : {-1., 1.}) {
             const double half_panel = 0.5 * (axis == 0 ? g.panel_width_mm : g.panel_height_mm);
             const double along_x = std::abs(axis == 0 ? l.cos_turn : l.sin_turn),
                          along_y = std::abs(axis == 0 ? l.sin_turn : l.cos_turn);
             const double half_lens = along_x * l.half_pitch[0] + (l.strips ? 0 : along_y * l.half_pitch[1]);
-            const Side far{axis == 0 ? Point{sign, 0} : Point{0, sign}, half_panel + half_lens};
+            const HalfPlane far{axis == 0 ? Point{sign, 0} : Point{0, sign}, half_panel + half_lens};
             if (std::ranges::all_of(array, [&](const Point& p) { return far.beyond(p) <= 1e-9 * half_panel; })) continue;
             sides.push_back({far.normal, half_panel + on * (sign * camera[axis] - half_panel)});
         }
@@ -99,7 +99,7 @@ Point meeting(const Point& a, const Point& b, const Point& c, const Point& d) {
     return {a[0] + t * ux, a[1] + t * uy};
 }
 
-Polygon cut(const Polygon& from, const Side& side) {
+Polygon cut(const Polygon& from, const HalfPlane& side) {
     Polygon to;
     for (std::size_t k = 0; k < from.size(); ++k) {
         const Point &a = from[k], &b = from[(k + 1) % from.size()];
@@ -159,8 +159,8 @@ ScreenCorners screen_corners(const Display& display, const Geometry& geometry) {
     constexpr const char* behind = "its camera does not have the whole screen in front of it";
     Polygon outline = array_outline(geometry);
     if (!(display.camera.position_mm[2] > geometry.vertex_plane_mm)) return {{}, behind};
-    if (const std::vector<Side> sides = panel_sides(geometry, display.camera.position_mm, outline); !sides.empty()) {
-        for (const Side& side : sides) outline = cut(outline, side);
+    if (const std::vector<HalfPlane> sides = panel_sides(geometry, display.camera.position_mm, outline); !sides.empty()) {
+        for (const HalfPlane& side : sides) outline = cut(outline, side);
         outline = without_short_edges(std::move(outline));
         if (outline.size() != 4)
             return {{},

@@ -71,9 +71,9 @@ class Renderer {
 };
 
 /// Renders squares of the frame for refine_tile.
-class Painter : public BlockPainter {
+class WidePainter : public BlockPainter {
   public:
-    Painter(Queue& queue, Renderer& renderer) : queue_(queue), renderer_(renderer) {
+    WidePainter(Queue& queue, Renderer& renderer) : queue_(queue), renderer_(renderer) {
         Tile& t = renderer_.frame().tile;  // whole squares, whatever the crop
         t.x0 = t.y0 = 0;
         t.x1 = t.view->width;
@@ -103,7 +103,7 @@ Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double t
     constexpr std::int64_t at_once = 4096;
     const std::int64_t columns = (tile.x1 - tile.x0) / refined_side + 2;
     const int rows = int(std::max<std::int64_t>(at_once / columns, 1)) * refined_side;
-    Painter painter(queue, renderer);
+    WidePainter painter(queue, renderer);
     std::int64_t samples = 0;
     Tile part = tile;
     for (int y = tile.y0 / refined_side * refined_side; y < tile.y1; y += rows) {

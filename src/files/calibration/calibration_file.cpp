@@ -55,7 +55,7 @@ const LensJson& plain(const LensJson& json, const std::string& key) {
 }
 
 /// The text may nest deeply: nothing of it is copied or compared as a whole.
-struct Found {
+struct CalibrationValues {
     std::string place;
     std::shared_ptr<const LensJson> text;  // in which it stands
     const LensJson* json;
@@ -69,10 +69,10 @@ struct Found {
 
 /// All calibrations within: in objects, lists, and texts that are JSON themselves.
 void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& json, const std::string& place, int depth,
-                 std::vector<Found>& found) {
+                 std::vector<CalibrationValues>& found) {
     if (depth > deepest_nesting || found.size() >= most_found) return;
     if (own_keys_of(json) >= enough_keys) {
-        const auto same = [&](const Found& other) { return other.same_unit(json); };
+        const auto same = [&](const CalibrationValues& other) { return other.same_unit(json); };
         if (std::none_of(found.begin(), found.end(), same)) found.push_back({place, text, &json});
         return;
     }
@@ -91,9 +91,9 @@ void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& js
 }
 
 /// The calibrations that a file means: itself where it has but one key of them, so that those that are missing are named.
-std::vector<Found> calibrations_in(std::string_view text, std::string_view name) {
+std::vector<CalibrationValues> calibrations_in(std::string_view text, std::string_view name) {
     const auto json = std::make_shared<const LensJson>(parse_lens_json(text, name));
-    std::vector<Found> found;
+    std::vector<CalibrationValues> found;
     find_within(json, *json, "", 0, found);
     if (found.empty() && (own_keys_of(*json) > 0)) found.push_back({"", json, json.get()});
     return found;
@@ -243,13 +243,13 @@ int cell_of(int pattern, std::int64_t column, std::int64_t row_from_bottom) {
 bool is_calibration(std::string_view text, std::string_view name) { return !calibrations_in(text, name).empty(); }
 
 Calibration parse_calibration(std::string_view text, std::string_view name) {
-    const std::vector<Found> found = calibrations_in(text, name);
+    const std::vector<CalibrationValues> found = calibrations_in(text, name);
     if (found.empty())
         throw InputError(std::string(name),
                          "is no calibration: nothing in it has values such as pitch, slope, center, DPI, screenW and screenH");
     if (found.size() > 1) {
         std::vector<std::string> places;
-        for (const Found& each : found) {
+        for (const CalibrationValues& each : found) {
             const LensJson& serial = plain(*each.json, "serial");
             places.push_back(serial.is_string() ? fmt::format("{} ({})", each.place, word_of(serial)) : each.place);
         }

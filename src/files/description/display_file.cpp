@@ -55,7 +55,7 @@ class DisplayReader {
         return std::any_of(faults.begin(), faults.end(), [&](const Problem& p) { return p.where == where; });
     }
     // A key too many; it does not keep validate() from checking any value.
-    void add_superfluous(Place place, std::string where, std::string what) {
+    void add_superfluous(SourcePosition place, std::string where, std::string what) {
         superfluous.push_back({std::move(place), std::move(where) + ": " + what});
     }
 
@@ -287,7 +287,7 @@ class DisplayReader {
     }
 
     struct Located {
-        Place place;
+        SourcePosition place;
         std::string what;
     };
 

@@ -13,26 +13,26 @@
 namespace lfdsim {
 namespace {
 
-enum class Form { number, list, other };
+enum class ValueForm { number, list, other };
 
 template <class Value>
-constexpr Form form = has_words<Value>              ? Form::other
-                      : std::is_arithmetic_v<Value> ? Form::number
-                                                    : Form::list;
+constexpr ValueForm form = has_words<Value>              ? ValueForm::other
+                           : std::is_arithmetic_v<Value> ? ValueForm::number
+                                                         : ValueForm::list;
 template <class T>
-constexpr Form form<std::optional<T>> = form<T>;
+constexpr ValueForm form<std::optional<T>> = form<T>;
 template <>
-constexpr Form form<Pitch> = Form::number;
+constexpr ValueForm form<Pitch> = ValueForm::number;
 template <>
-constexpr Form form<std::string> = Form::other;
+constexpr ValueForm form<std::string> = ValueForm::other;
 template <>
-constexpr Form form<std::vector<std::string>> = Form::other;
+constexpr ValueForm form<std::vector<std::string>> = ValueForm::other;
 template <>
-constexpr Form form<Glass> = Form::other;
+constexpr ValueForm form<Glass> = ValueForm::other;
 
-Form form_of(std::string_view path) {
+ValueForm form_of(std::string_view path) {
     const FormatTable::Value* found = key_at(path);
-    return found ? std::visit([]<class Value>(const Value*) { return form<Value>; }, found->fresh) : Form::other;
+    return found ? std::visit([]<class Value>(const Value*) { return form<Value>; }, found->fresh) : ValueForm::other;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -124,11 +124,11 @@ std::string override_hint(std::string_view path, std::string_view value) {
     value = trimmed(value);
     if (value.empty()) return "";
     switch (form_of(path)) {
-        case Form::number:
+        case ValueForm::number:
             return number_hint(path, value);
-        case Form::list:
+        case ValueForm::list:
             return list_hint(value);
-        case Form::other:
+        case ValueForm::other:
             break;
     }
     return "";

@@ -160,11 +160,11 @@ void Source::apply(const std::string& override_text) {
     set_[std::string(path)] = override_text;
 }
 
-Place Source::at(const toml::source_region& region) const {
+SourcePosition Source::at(const toml::source_region& region) const {
     return {fmt::format("{}:{}:{}", name_, region.begin.line, region.begin.column), region.begin.line, region.begin.column};
 }
 
-Place Source::place(std::string_view path) const {
+SourcePosition Source::place(std::string_view path) const {
     // Down the path as far as it exists. An override of any part of it also set everything below.
     const toml::node* node = &root_;
     std::string inside;
@@ -183,7 +183,7 @@ Place Source::place(std::string_view path) const {
     return {name_};
 }
 
-Place Source::place(const toml::key& key, std::string_view path) const {
+SourcePosition Source::place(const toml::key& key, std::string_view path) const {
     // Keys within a table that an override gave have places in the override's text, not in the file.
     for (std::size_t dot = path.find('.');; dot = path.find('.', dot + 1)) {
         if (is_set(path.substr(0, dot))) return place(path);

@@ -12,7 +12,7 @@
 namespace lfdsim {
 
 /// Where a value was written: line and column in the file (0: nowhere in particular), or an override.
-struct Place {
+struct SourcePosition {
     std::string text;  // "file:line:column", "--set key=value"
     std::size_t line = 0, column = 0;
 };
@@ -25,14 +25,14 @@ class Source {
     const toml::table& root() const { return root_; }
 
     /// Place of the value at a dotted path ("lens.surface.0.index"), or of the innermost part of the path that exists.
-    Place place(std::string_view path) const;
+    SourcePosition place(std::string_view path) const;
     /// Place of a key itself.
-    Place place(const toml::key& key, std::string_view path) const;
+    SourcePosition place(const toml::key& key, std::string_view path) const;
     /// Whether an override gave the value, or took it away.
     bool is_set(std::string_view path) const { return set_.contains(std::string(path)); }
 
   private:
-    Place at(const toml::source_region& region) const;
+    SourcePosition at(const toml::source_region& region) const;
     void apply(const std::string& override_text);
 
     std::string name_;

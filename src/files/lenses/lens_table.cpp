@@ -51,12 +51,12 @@ class TableReader {
         report();
         std::vector<GivenLensError> lenses;
         lenses.reserve(rows_.size());
-        for (const Row& row : rows_) lenses.push_back(row.lens);
+        for (const TableRow& row : rows_) lenses.push_back(row.lens);
         return lenses;
     }
 
   private:
-    struct Row {
+    struct TableRow {
         GivenLensError lens;
         std::size_t line;
     };
@@ -133,8 +133,9 @@ class TableReader {
     }
 
     void refuse_doubles() {
-        std::ranges::stable_sort(
-            rows_, [](const Row& a, const Row& b) { return std::pair(a.lens.j, a.lens.i) < std::pair(b.lens.j, b.lens.i); });
+        std::ranges::stable_sort(rows_, [](const TableRow& a, const TableRow& b) {
+            return std::pair(a.lens.j, a.lens.i) < std::pair(b.lens.j, b.lens.i);
+        });
         for (std::size_t k = 1; k < rows_.size(); ++k)
             if (rows_[k].lens.i == rows_[k - 1].lens.i && rows_[k].lens.j == rows_[k - 1].lens.j)
                 refuse_at(rows_[k].line,
@@ -147,7 +148,7 @@ class TableReader {
     std::array<std::int64_t, 2> count_;
     std::size_t line_ = 0;
     std::vector<std::size_t> order_;  // of the columns in the file
-    std::vector<Row> rows_;
+    std::vector<TableRow> rows_;
     std::vector<Problem> problems_;
 };
 

@@ -259,16 +259,16 @@ ViewsSource hci_views(const fs::path& folder) {
 std::optional<ViewsSource> stanford_views(const fs::path& folder) {
     static const std::regex form(
         R"(.*_(\d{1,4})_(\d{1,4})_(-?\d{1,9}(?:\.\d{1,12})?)_(-?\d{1,9}(?:\.\d{1,12})?)_?\.(?:png|jpg|jpeg))");
-    struct View {
+    struct NamedView {
         fs::path path;
         double u, v;
     };
-    std::map<std::pair<int, int>, View> views;  // by row and column
+    std::map<std::pair<int, int>, NamedView> views;  // by row and column
     each_file(folder, [&](const std::string& name) {
         std::smatch part;
         if (name.size() > 200 || !std::regex_match(name, part, form)) return;
         const auto [at, fresh] = views.emplace(std::pair(std::stoi(part[1]), std::stoi(part[2])),
-                                               View{folder / name, number_of(part[4]), number_of(part[3])});
+                                               NamedView{folder / name, number_of(part[4]), number_of(part[3])});
         if (!fresh)
             throw InputError((folder / name).string(),
                              fmt::format("has the place in the grid of {}, too", at->second.path.filename().string()));

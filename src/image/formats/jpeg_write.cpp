@@ -20,24 +20,24 @@ namespace {
     throw std::runtime_error(std::string("JPEG: ") + text.data());
 }
 
-struct Writer {
+struct JpegWriter {
     jpeg_compress_struct jpeg{};
     jpeg_error_mgr error{};
     unsigned char* bytes = nullptr;
     unsigned long size = 0;
 
-    Writer() {
+    JpegWriter() {
         jpeg.err = jpeg_std_error(&error);
         error.error_exit = on_error;
         jpeg_create_compress(&jpeg);
         jpeg_mem_dest(&jpeg, &bytes, &size);
     }
-    ~Writer() {
+    ~JpegWriter() {
         jpeg_destroy_compress(&jpeg);
         std::free(bytes);
     }
-    Writer(const Writer&) = delete;
-    Writer& operator=(const Writer&) = delete;
+    JpegWriter(const JpegWriter&) = delete;
+    JpegWriter& operator=(const JpegWriter&) = delete;
 };
 
 // A picture is compressed in strips of so many rows, eight rows of the blocks of 16 x 16 pixels, by several threads. Between two
@@ -46,7 +46,7 @@ constexpr int strip_rows = 8 * 16;
 
 /// Rows top .. top + rows - 1 as a file of their own.
 std::string strip(int width, int top, int rows, const std::vector<std::uint8_t>& codes, int quality) {
-    Writer writer;
+    JpegWriter writer;
     jpeg_compress_struct& jpeg = writer.jpeg;
     jpeg.image_width = JDIMENSION(width);
     jpeg.image_height = JDIMENSION(rows);

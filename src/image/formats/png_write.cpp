@@ -28,22 +28,22 @@ void on_write(png_structp png, png_bytep data, std::size_t bytes) { static_cast<
 
 void on_flush(png_structp) {}
 
-struct Writer {
+struct PngWriter {
     png_structp png;
     png_infop info;
 
-    explicit Writer(Output& file)
+    explicit PngWriter(Output& file)
         : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_write_error, no_warning)),
           info(png ? png_create_info_struct(png) : nullptr) {
         if (!info) throw std::bad_alloc();
         png_set_write_fn(png, &file, on_write, on_flush);
     }
-    ~Writer() { png_destroy_write_struct(&png, &info); }
-    Writer(const Writer&) = delete;
-    Writer& operator=(const Writer&) = delete;
+    ~PngWriter() { png_destroy_write_struct(&png, &info); }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
 };
 
-void write_header(const Writer& writer, const Image& image, const WriteOptions& options) {
+void write_header(const PngWriter& writer, const Image& image, const WriteOptions& options) {
     png_set_IHDR(writer.png, writer.info, png_uint_32(image.width), png_uint_32(image.height), options.bits, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (options.encoding == Encoding::srgb)
@@ -126,7 +126,7 @@ void write_png(Output& file, const Image& image, const WriteOptions& options, Jo
     if (image.width > most || image.height > most)
         throw InputError(file.name(), fmt::format("{} x {} pixels; a PNG has at most {} columns and rows, use .exr or .npy",
                                                   image.width, image.height, most));
-    const Writer writer(file);
+    const PngWriter writer(file);
     write_header(writer, image, options);
 
     static constexpr png_byte idat[] = "IDAT", iend[] = "IEND";

@@ -9,9 +9,9 @@ namespace {
 
 /// Samples a photograph at a point, bilinearly between the pixels around it. add() adds to `sum` and returns whether one of them is
 /// saturated.
-class Sampler {
+class PhotographSampler {
   public:
-    Sampler(const Image& image, double saturation)
+    PhotographSampler(const Image& image, double saturation)
         : image_(image), saturation_(float(std::min(saturation, double(std::numeric_limits<float>::max())))) {}
 
     bool add(const Point& p, float* sum) const {
@@ -67,7 +67,7 @@ Aligned align(const Image& photograph, const Corners& in_photograph, int view_wi
     if (part) result.screen = result.screen.intersected(Region::of(*part));
     keep_covered(result.screen, to_photograph, photograph);
 
-    const Sampler sampler(photograph, saturation);
+    const PhotographSampler sampler(photograph, saturation);
     tbb::parallel_for(std::size_t(0), result.screen.rows.size(), [&](std::size_t k) {
         if (job.cancelled()) return;
         const Region::Row& row = result.screen.rows[k];

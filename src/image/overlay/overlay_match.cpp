@@ -17,7 +17,7 @@ constexpr double least_used = 0.01, most_blur_px = 64;
 constexpr const char* colour_names[] = {"red", "green", "blue"};
 
 /// Mean light of a square of pixels that are on the screen and not saturated.
-struct Cell {
+struct MeanSquare {
     double pixels = 0;
     std::array<double, 3> simulated{}, photograph{};
 };
@@ -28,13 +28,13 @@ void for_used_pixels(const Aligned& photo, const Region::Row& row, int y, const 
         if (!photo.saturated[std::size_t(y) * std::size_t(photo.light.width) + std::size_t(x)]) visit(x);
 }
 
-std::vector<Cell> cells_of(const Image& simulated, const Aligned& photo) {
+std::vector<MeanSquare> cells_of(const Image& simulated, const Aligned& photo) {
     const int across = (simulated.width + cell_side - 1) / cell_side, down = (simulated.height + cell_side - 1) / cell_side;
-    std::vector<Cell> cells(std::size_t(across) * std::size_t(down));
+    std::vector<MeanSquare> cells(std::size_t(across) * std::size_t(down));
     for (std::size_t k = 0; k < photo.screen.rows.size(); ++k) {
         const int y = photo.screen.top + int(k);
         for_used_pixels(photo, photo.screen.rows[k], y, [&](int x) {
-            Cell& cell = cells[std::size_t(y / cell_side) * std::size_t(across) + std::size_t(x / cell_side)];
+            MeanSquare& cell = cells[std::size_t(y / cell_side) * std::size_t(across) + std::size_t(x / cell_side)];
             ++cell.pixels;
             for (std::size_t c = 0; c < 3; ++c) {
                 cell.simulated[c] += simulated.at(x, y)[c];
@@ -42,8 +42,8 @@ std::vector<Cell> cells_of(const Image& simulated, const Aligned& photo) {
             }
         });
     }
-    std::erase_if(cells, [](const Cell& cell) { return cell.pixels == 0; });
-    for (Cell& cell : cells)
+    std::erase_if(cells, [](const MeanSquare& cell) { return cell.pixels == 0; });
+    for (MeanSquare& cell : cells)
         for (std::size_t c = 0; c < 3; ++c) {
             cell.simulated[c] /= cell.pixels;
             cell.photograph[c] /= cell.pixels;
@@ -65,23 +65,23 @@ double median(std::vector<Weighted> all) {
 
 /// The slope of photograph = gain x simulation. Starts with the least sum of absolute residuals, which is the weighted median of
 /// quotients; then least squares with Tukey's weights, which ignore outliers (a reflection, a finger).
-double gain(const std::vector<Cell>& cells, std::size_t c) {
+double gain(const std::vector<MeanSquare>& cells, std::size_t c) {
     double brightest = 0;
-    for (const Cell& cell : cells) brightest = std::max(brightest, cell.simulated[c]);
+    for (const MeanSquare& cell : cells) brightest = std::max(brightest, cell.simulated[c]);
     std::vector<Weighted> quotients;
-    for (const Cell& cell : cells)
+    for (const MeanSquare& cell : cells)
         if (cell.simulated[c] >= least_share * brightest)
             quotients.push_back({cell.photograph[c] / cell.simulated[c], cell.pixels * cell.simulated[c]});
     double slope = median(quotients);
     for (int step = 0; step < 20; ++step) {
         std::vector<Weighted> residuals;
-        for (const Cell& cell : cells)
+        for (const MeanSquare& cell : cells)
             if (cell.simulated[c] >= least_share * brightest)
                 residuals.push_back({std::abs(cell.photograph[c] - slope * cell.simulated[c]), cell.pixels});
         const double reach = 4.685 * 1.4826 * median(residuals);  // Tukey's constant, of standard deviations
         if (reach <= 1e-9 * slope * brightest) break;             // it fits almost exactly
         double products = 0, squares = 0;
-        for (const Cell& cell : cells) {
+        for (const MeanSquare& cell : cells) {
             const double s = cell.simulated[c], p = cell.photograph[c], r = (p - slope * s) / reach;
             if (s < least_share * brightest || std::abs(r) >= 1) continue;
             const double weight = cell.pixels * (1 - r * r) * (1 - r * r);
@@ -186,13 +186,13 @@ std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photo, do
     if (const double used = used_share(photo); used < least_used)
         throw InputError("",
                          fmt::format("the photograph is saturated on {:.1f} % of the screen; expose it less", 100 * (1 - used)));
-    const std::vector<Cell> cells = cells_of(simulated, photo);
+    const std::vector<MeanSquare> cells = cells_of(simulated, photo);
     std::array<double, 3> result{};
     double sum = 0;
     int known = 0;
     for (std::size_t c = 0; c < 3; ++c) {
         double in_view = 0, in_photograph = 0;
-        for (const Cell& cell : cells) {
+        for (const MeanSquare& cell : cells) {
             in_view = std::max(in_view, cell.simulated[c]);
             in_photograph = std::max(in_photograph, cell.photograph[c]);
         }

@@ -30,8 +30,8 @@ MeshSurfaces::MeshSurfaces(const LensMesh& mesh, const Geometry& geometry, LensN
     for (std::size_t k = geometry.surfaces.size(); k-- > 0;) surfaces_.push_back(surface(k, geometry));
 }
 
-MeshSurfaces::Surface MeshSurfaces::surface(std::size_t number, const Geometry& geometry) const {
-    Surface s;
+MeshSurfaces::MeshSurface MeshSurfaces::surface(std::size_t number, const Geometry& geometry) const {
+    MeshSurface s;
     double low = INFINITY, high = -INFINITY, widest2 = 0;
     for (std::size_t t = 0; t < mesh_.count(); ++t) {
         if (mesh_.surface_of[t] != std::int32_t(number)) continue;
@@ -68,7 +68,7 @@ MeshSurfaces::Surface MeshSurfaces::surface(std::size_t number, const Geometry& 
     return s;
 }
 
-MeshSurfaces::Triangle MeshSurfaces::Surface::triangle(const MeshSurfaces& all, std::uint32_t number) const {
+MeshSurfaces::Triangle MeshSurfaces::MeshSurface::triangle(const MeshSurfaces& all, std::uint32_t number) const {
     Triangle t;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t vertex = 3 * std::size_t(triangles[3 * std::size_t(number) + i]);
@@ -79,7 +79,7 @@ MeshSurfaces::Triangle MeshSurfaces::Surface::triangle(const MeshSurfaces& all, 
 }
 
 optics::Hit<float> MeshSurfaces::meet(int k, const optics::Ray<float>& ray) const {
-    const Surface& s = surfaces_[std::size_t(k)];
+    const MeshSurface& s = surfaces_[std::size_t(k)];
     optics::Hit<float> hit{{ray.at.x, ray.at.y, 0}, {0, 0, 1}, 1, 1, false};
     // Embree's ray begins where the line enters the ball round the surface, so that all its numbers are of the lens's size.
     const Vec3d d{ray.to.x, ray.to.y, ray.to.z}, at{ray.at.x, ray.at.y, s.vertex_z};

@@ -31,7 +31,7 @@ class MeshSurfaces {
     struct Triangle {
         const float *corner[3], *normal[3];
     };
-    struct Surface {
+    struct MeshSurface {
         std::vector<std::uint32_t> triangles;  // into the lens's vertices; counter-clockwise from the viewer
         std::unique_ptr<RTCSceneTy, ReleaseScene> tree;
         double vertex_z;          // in the mesh's frame
@@ -39,12 +39,12 @@ class MeshSurfaces {
         bool turned;              // its normals point down in the mesh
         Triangle triangle(const MeshSurfaces&, std::uint32_t number) const;
     };
-    Surface surface(std::size_t number, const Geometry&) const;
+    MeshSurface surface(std::size_t number, const Geometry&) const;
 
     LensMesh mesh_;
     LensNormals normals_;
     std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
-    std::vector<Surface> surfaces_;
+    std::vector<MeshSurface> surfaces_;
 };
 
 /// The tracer's input: its own scene, with meshes in place of the surfaces.

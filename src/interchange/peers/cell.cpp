@@ -79,12 +79,12 @@ Point corner_after(const std::vector<CellSide>& sides, std::size_t number, doubl
 // The face from a polygon about the axis to the cell's border, and `wider` beyond it, all at one height; nothing where the polygon
 // lies on the border.
 void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std::vector<CellSide>& sides, double wider) {
-    struct Pair {
+    struct CornerPair {
         Point in, out;
         std::size_t side;
     };
     const auto towards = [](const CellSide& side, const Point& p) { return side.out[0] * p[0] + side.out[1] * p[1]; };
-    std::vector<Pair> pairs;
+    std::vector<CornerPair> pairs;
     for (const Point& p : inner) {
         double scale = INFINITY;
         std::size_t nearest = 0;
@@ -100,7 +100,7 @@ void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std
         });
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const Pair &a = pairs[i], &b = pairs[(i + 1) % pairs.size()];
+        const CornerPair &a = pairs[i], &b = pairs[(i + 1) % pairs.size()];
         if (along_border(a.in, b.in)) continue;
         add_triangle(patch, a.in, a.out, b.in, up);
         Point from = a.out;

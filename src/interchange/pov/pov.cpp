@@ -31,9 +31,9 @@ namespace {
 
 constexpr double overlap_mm = 1e-6;  // of walls of neighbouring cells
 
-class Writer {
+class PovWriter {
   public:
-    Writer(const Display& d, const Geometry& g, const PeerOptions& o)
+    PovWriter(const Display& d, const Geometry& g, const PeerOptions& o)
         : d_(d),
           g_(g),
           lattice_(g.lattice),
@@ -296,7 +296,7 @@ class Writer {
 
     // For a plate whose lenses fill their cells: the upright faces on a cell's side, between a cap and the flat part where there is
     // no lens beyond it, and between the caps of bricks, which meet at different heights.
-    std::string side_walls(const PovCell::Side& side, bool at_border) const {
+    std::string side_walls(const PovCell::PrismSide& side, bool at_border) const {
         std::string walls;
         for (const PlacedSurface& s : g_.surfaces) {
             if (is_plane(s)) continue;
@@ -330,7 +330,7 @@ class Writer {
         std::string walls, all, flats;
         if (d_.array.aperture == Aperture::cell) {
             int number = 0;
-            for (const PovCell::Side& side : cell_.sides()) {
+            for (const PovCell::PrismSide& side : cell_.sides()) {
                 const bool steps = d_.array.lattice == LatticeKind::brick && side.to[1] > 0 && side.beyond[1] > 0;
                 const auto declare = [&](const char* name, bool at_border) {
                     all += fmt::format("#declare {}{} = union {{\n{}  {}\n}}\n", name, number, side_walls(side, at_border),
@@ -383,7 +383,7 @@ void write_pov(const Display& display, const Geometry& geometry, const PeerOptio
     scene.command = fmt::format("povray +Iscene.pov +O{} +W{} +H{} -D -A +FN16 File_Gamma=1.0", scene.picture, width, height);
     head.push_back("Render: " + scene.command);
     for (const std::string& d : scene.deviations) head.push_back("Deviates: " + d);
-    const Writer writer(scene.shown, geometry, options);
+    const PovWriter writer(scene.shown, geometry, options);
     scene.files.push_back({"scene.pov", writer.scene(head, scene.panel_file)});
 }
 

@@ -51,12 +51,12 @@ std::string PovCell::flat(double z, double radius) const {
     return fmt::format("{}, {} clipped_by {{ {} }}", disc, text(radius), cell);
 }
 
-std::vector<PovCell::Side> PovCell::sides() const {
+std::vector<PovCell::PrismSide> PovCell::sides() const {
     const auto [x, y] = half_;
     const double px = lattice_.pitch[0], py = lattice_.pitch[1];
     const std::string right = fmt::format("I = {}", last(0)), left = "I = 0", top = fmt::format("J = {}", last(1)),
                       bottom = "J = 0";
-    std::vector<Side> all{{{x, -y}, {x, y}, {px, 0}, right}, {{-x, -y}, {-x, y}, {-px, 0}, left}};
+    std::vector<PrismSide> all{{{x, -y}, {x, y}, {px, 0}, right}, {{-x, -y}, {-x, y}, {-px, 0}, left}};
     if (strips()) return all;
     if (!lattice_.staggered) {
         all.push_back({{-x, y}, {x, y}, {0, py}, top});

@@ -34,11 +34,11 @@ class PovCell {
     std::string flat(double z, double radius) const;
 
     /// A side of the cell. Where there is a lens beyond it, that lens's axis is at `beyond`.
-    struct Side {
+    struct PrismSide {
         std::array<double, 2> from, to, beyond;
         std::string at_border;  // POV-Ray's condition on I and J: no lens beyond it
     };
-    std::vector<Side> sides() const;
+    std::vector<PrismSide> sides() const;
 
     /// The place of lens (I, J), variables of POV-Ray, in the array's frame: x, and y.
     std::string axis_x() const;

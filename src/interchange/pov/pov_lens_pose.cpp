@@ -50,7 +50,7 @@ PovStands::PovStands(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(
 }
 
 bool PovStands::at_border(std::size_t k) const {
-    const Stand& s = stands_[k];
+    const PovPose& s = stands_[k];
     return s.i == 0 || s.j == 0 || s.i == cell_.last(0) || s.j == cell_.last(1);
 }
 
@@ -84,13 +84,13 @@ std::string PovStands::column(double radius, double wider) const {
 std::string PovStands::placed(std::size_t k, const std::string& shape) const { return "object { " + shape + " " + frame(k) + " }"; }
 
 std::vector<std::size_t> PovStands::near(std::size_t k) const {
-    const Stand& own = stands_[k];
+    const PovPose& own = stands_[k];
     const auto [x0, y0, x1, y1] = tile(k);
     std::vector<std::size_t> all;
     const std::int64_t rows = cell_.strips() ? 0 : 1;
     for (std::int64_t j = std::max<std::int64_t>(own.j - rows, 0); j <= std::min(own.j + rows, cell_.last(1)); ++j)
         for (std::int64_t i = std::max<std::int64_t>(own.i - 1, 0); i <= std::min(own.i + 1, cell_.last(0)); ++i) {
-            const Stand& other = stands_[number(i, j)];
+            const PovPose& other = stands_[number(i, j)];
             if (&other == &own) continue;
             const double dx = std::max({x0 - other.at[0], other.at[0] - x1, 0.}),
                          dy = cell_.strips() ? 0 : std::max({y0 - other.at[1], other.at[1] - y1, 0.});
@@ -103,10 +103,10 @@ std::vector<std::size_t> PovStands::near(std::size_t k) const {
 
 bool PovStands::overlap() const {
     if (d_.array.aperture == Aperture::cell)
-        return std::any_of(stands_.begin(), stands_.end(), [](const Stand& s) { return moved(s.error); });
+        return std::any_of(stands_.begin(), stands_.end(), [](const PovPose& s) { return moved(s.error); });
     for (std::size_t k = 0; k < count(); ++k)
         for (const std::size_t m : near(k)) {
-            const Stand &a = stands_[k], &b = stands_[m];
+            const PovPose &a = stands_[k], &b = stands_[m];
             const double y = cell_.strips() ? 0 : b.at[1] - a.at[1];
             if (std::hypot(b.at[0] - a.at[0], y) < a.reach + b.reach) return true;
         }
@@ -114,7 +114,7 @@ bool PovStands::overlap() const {
 }
 
 std::array<double, 4> PovStands::tile(std::size_t k) const {
-    const Stand& s = stands_[k];
+    const PovPose& s = stands_[k];
     const double x = g_.lattice.pitch[0] / 2 + seam_mm, y = g_.lattice.pitch[1] / 2 + seam_mm;
     return {s.i == 0 ? -far_ : s.at[0] - x, s.j == 0 ? -far_ : s.at[1] - y, s.i == cell_.last(0) ? far_ : s.at[0] + x,
             s.j == cell_.last(1) ? far_ : s.at[1] + y};
@@ -134,7 +134,7 @@ std::string PovStands::flat(std::size_t k, double z, const std::vector<std::stri
 }
 
 std::string PovStands::box(std::size_t k) const {
-    const Stand& s = stands_[k];
+    const PovPose& s = stands_[k];
     const double x = std::max(s.reach, g_.lattice.pitch[0] / 2) + spare_mm,
                  y = cell_.strips() ? 1.1 * cell_.half_length() : std::max(s.reach, g_.lattice.pitch[1] / 2) + spare_mm;
     return fmt::format("box {{ {}, {} }}", vector(s.at[0] - x, s.at[1] - y, low_), vector(s.at[0] + x, s.at[1] + y, high_));
@@ -151,7 +151,7 @@ std::string PovStands::row_box(std::size_t k) const {
 }
 
 std::string PovStands::hole(std::size_t k) const {
-    const Stand& s = stands_[k];
+    const PovPose& s = stands_[k];
     return fmt::format("object {{ {} translate {} }}", cell_.column(*d_.lens.stop_radius_mm, low_, high_),
                        vector(s.at[0] + s.error.aside_mm[0], s.at[1] + s.error.aside_mm[1], s.error.height_mm));
 }
@@ -170,7 +170,7 @@ std::optional<std::array<double, 2>> PovStands::walls() const {
     const bool filled = d_.array.aperture == Aperture::cell;
     double low = -INFINITY, high = INFINITY, step = 0;
     for (std::size_t k = 0; k < count(); ++k) {
-        const Stand& s = stands_[k];
+        const PovPose& s = stands_[k];
         double top = -INFINITY, bottom = INFINITY, wide = 0;
         for (const PlacedSurface& of : surfaces(k)) {
             top = std::max(top, rim_z(of));
@@ -190,7 +190,7 @@ std::optional<std::array<double, 2>> PovStands::walls() const {
 
 bool PovStands::level() const {
     return std::all_of(stands_.begin(), stands_.end(),
-                       [&](const Stand& s) { return std::abs(s.error.height_mm - stands_.front().error.height_mm) < same_mm; });
+                       [&](const PovPose& s) { return std::abs(s.error.height_mm - stands_.front().error.height_mm) < same_mm; });
 }
 
 }  // namespace lfdsim::peers

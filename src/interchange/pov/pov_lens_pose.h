@@ -67,7 +67,7 @@ class PovStands {
     bool level() const;
 
   private:
-    struct Stand {
+    struct PovPose {
         std::int64_t i, j;
         std::array<double, 2> at;  // its lattice point, in the array's frame
         LensError error;
@@ -82,7 +82,7 @@ class PovStands {
     const Geometry& g_;
     const PovCell cell_;
     double far_, low_, high_;
-    std::vector<Stand> stands_;
+    std::vector<PovPose> stands_;
 };
 
 }  // namespace lfdsim::peers

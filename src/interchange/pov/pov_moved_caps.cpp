@@ -12,9 +12,9 @@
 namespace lfdsim::peers {
 namespace {
 
-class MovedCaps {
+class PovMovedCaps {
   public:
-    MovedCaps(const Display& d, const Geometry& g) : d_(d), g_(g), stands_(d, g) {}
+    PovMovedCaps(const Display& d, const Geometry& g) : d_(d), g_(g), stands_(d, g) {}
 
     std::string all() const {
         const PlacedSurface &lower = g_.surfaces.front(), &upper = g_.surfaces.back();
@@ -79,6 +79,6 @@ class MovedCaps {
 
 }  // namespace
 
-std::string pov_moved_caps(const Display& display, const Geometry& geometry) { return MovedCaps(display, geometry).all(); }
+std::string pov_moved_caps(const Display& display, const Geometry& geometry) { return PovMovedCaps(display, geometry).all(); }
 
 }  // namespace lfdsim::peers

@@ -19,11 +19,11 @@ double half_height(const Geometry& g) {
 }
 
 /// Heights of the depth planes that are near enough to be drawn; NaN for others.
-struct Planes {
+struct DrawnPlanes {
     double central = NAN;
     std::array<double, 2> marginal{NAN, NAN};
 
-    explicit Planes(const Subject& s) {
+    explicit DrawnPlanes(const Subject& s) {
         const Theory& t = s.theory();
         const double reach = 1.5 * s.display().camera.position_mm[2], from = s.geometry().rear_principal_mm;
         const auto near = [&](double z) { return std::abs(z) <= reach ? z : NAN; };
@@ -33,7 +33,7 @@ struct Planes {
     }
 };
 
-SideScale scale_for(const Subject& s, const Planes& planes, double top, double& high) {
+SideScale scale_for(const Subject& s, const DrawnPlanes& planes, double top, double& high) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     double first = std::min(0., g.base_z_mm), last = std::max(d.camera.position_mm[2], g.top_z_mm);
@@ -71,7 +71,7 @@ void draw_backward(Drawing& drawing, const SideScale& scale, const Subject& s) {
 
 /// The light of the pixel behind the middle lens, up to its image; where that is not real, some way forward and, dashed, back to
 /// where the light seems to come from.
-void draw_pixel(Drawing& drawing, const SideScale& scale, const Subject& s, const Planes& planes) {
+void draw_pixel(Drawing& drawing, const SideScale& scale, const Subject& s, const DrawnPlanes& planes) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const double y = lens_near(g.lattice, 0).y_mm, half = 0.45 * g.clear_aperture_mm[1];
@@ -107,7 +107,7 @@ std::string side_view_svg(const Subject& display, SideFrame* frame) {
     const Subject s = section_of(display);
     const Display& d = s.display();
     const Geometry& g = s.geometry();
-    const Planes planes(s);
+    const DrawnPlanes planes(s);
     const Vec3d& eye = d.camera.position_mm;
     std::vector<std::pair<double, std::string>> named{{0, "panel"}, {g.vertex_plane_mm, "lenses"}, {eye[2], "eye"}};
     if (g.diffuser_z_mm) named.emplace_back(*g.diffuser_z_mm, "diffuser");

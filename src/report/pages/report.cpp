@@ -13,26 +13,26 @@
 namespace lfdsim {
 namespace {
 
-struct Shown {
+struct ReportedFigure {
     const Measure* measure;
     Json measured;
 };
 
-std::vector<Shown> results_of(const ResultFolder& folder) {
-    std::vector<Shown> all;
+std::vector<ReportedFigure> results_of(const ResultFolder& folder) {
+    std::vector<ReportedFigure> all;
     for (const Measure& m : measures())
         if (folder.has(m)) all.push_back({&m, folder.read(m)});
     return all;
 }
 
-bool holds(const std::vector<Shown>& shown, const Measure* m) {
-    return std::any_of(shown.begin(), shown.end(), [&](const Shown& s) { return s.measure == m; });
+bool holds(const std::vector<ReportedFigure>& shown, const Measure* m) {
+    return std::any_of(shown.begin(), shown.end(), [&](const ReportedFigure& s) { return s.measure == m; });
 }
 
 std::string name_of(const Measure* m) { return fmt::format("{} ({})", escaped(m->title), escaped(m->name)); }
 
 /// Which of the wanted measures are missing, and why; empty: none.
-std::string missing_measures(const std::vector<Shown>& shown, const ReportAbout& about) {
+std::string missing_measures(const std::vector<ReportedFigure>& shown, const ReportAbout& about) {
     std::string why, names;
     for (const auto& [m, what] : about.failed)
         why += fmt::format("<p>{} could not be measured: {}</p>\n", name_of(m), escaped(what));
@@ -53,9 +53,9 @@ constexpr const char* contents =
 
 /// What is worth knowing of the design, what each measure found first, and pictures: on the first screen, before all tables and
 /// plots.
-std::string verdict(const Subject& subject, const ResultFolder& folder, const std::vector<Shown>& shown) {
+std::string verdict(const Subject& subject, const ResultFolder& folder, const std::vector<ReportedFigure>& shown) {
     std::string found, doubts, pictures;
-    for (const Shown& s : shown) {
+    for (const ReportedFigure& s : shown) {
         const std::string seen = glance(folder, s.measured);
         pictures += seen;
         if (seen.empty() || !s.measured.at("report").at("findings").empty()) found += headline_row(s.measured.at("report"));
@@ -76,10 +76,10 @@ std::string verdict(const Subject& subject, const ResultFolder& folder, const st
     return html + "</section>\n";
 }
 
-std::string summary(const std::vector<Shown>& shown) {
+std::string summary(const std::vector<ReportedFigure>& shown) {
     std::string html = findings_table;
     std::size_t figures = 0;
-    for (const Shown& s : shown) {
+    for (const ReportedFigure& s : shown) {
         const std::string rows = finding_rows(s.measured.at("report"));
         if (rows.empty()) continue;
         figures += s.measured.at("report").at("findings").size();
@@ -116,7 +116,7 @@ bool has_results(const ResultFolder& folder) {
 }
 
 std::string report_html(const Subject& subject, const ResultFolder& folder, const ReportAbout& about) {
-    const std::vector<Shown> shown = results_of(folder);
+    const std::vector<ReportedFigure> shown = results_of(folder);
     const std::string& given = subject.display().name;
     const std::string name = given.empty() ? "A display without a name" : escaped(given);
     std::string html = fmt::format(
@@ -127,7 +127,7 @@ std::string report_html(const Subject& subject, const ResultFolder& folder, cons
         name, report_style, escaped(folder.settings().value("lfdsim", std::string())), ResultFolder::report_mark);
     html += missing_measures(shown, about) + "<main>\n" + contents + verdict(subject, folder, shown) + summary(shown) +
             display_section(subject);
-    for (const Shown& s : shown) html += measure_section(folder, s.measured);
+    for (const ReportedFigure& s : shown) html += measure_section(folder, s.measured);
     return html + settings(folder, about) + "</main>\n</body>\n</html>\n";
 }
 

@@ -33,7 +33,7 @@ struct PlotRange {
 };
 
 /// The rectangle of a plot in its drawing, pixels.
-struct Frame {
+struct PlotFrame {
     double left, top, width, height;
     PlotAxis x, y;
 

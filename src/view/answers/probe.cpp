@@ -75,15 +75,15 @@ std::vector<SideRay> turned(const Display& d, const Geometry& g, const SideRay& 
 /// How much of the panel's height the diffuser's cone covers, and through how many rows of lenses.
 std::string cone(const Display& d, const Geometry& g, const SideRay& sight) {
     if (!d.diffuser) return "";
-    struct Seen {
+    struct PanelSpan {
         double low, high;
     };
-    std::map<std::int64_t, Seen> rows;
+    std::map<std::int64_t, PanelSpan> rows;
     for (const SideRay& ray : turned(d, g, sight, cone_rays)) {
         const SidePath path = through_array(d, g, ray);
         if (!path.through) continue;
         const double y = path.last.y_at(0);
-        Seen& seen = rows.try_emplace(lens_near(g.lattice, ray.y_at(g.vertex_plane_mm)).row, Seen{y, y}).first->second;
+        PanelSpan& seen = rows.try_emplace(lens_near(g.lattice, ray.y_at(g.vertex_plane_mm)).row, PanelSpan{y, y}).first->second;
         seen = {std::min(seen.low, y), std::max(seen.high, y)};
     }
     double height = 0;

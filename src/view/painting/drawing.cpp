@@ -31,7 +31,7 @@ void Drawing::begin(const Wanted& wanted) {
     coarse_is_full_ = false;
     pictures_ = {};
     eyes_ = seen(library_, wanted);
-    for (const Seen& eye : eyes_) panels_.require(eye.key, eye.made_for);
+    for (const EyeDisplay& eye : eyes_) panels_.require(eye.key, eye.made_for);
     const double count = double(eyes_.size()) + (wanted.beside == Beside::none ? 0 : 2);
     pictures_ = panels_.budget().claim("size", fmt::format("pictures of {} x {} pixels", wanted.size[0], wanted.size[1]),
                                        count * picture_copies * picture_bytes(wanted.size[0], wanted.size[1]));
@@ -43,22 +43,22 @@ std::string Drawing::beside_problem() const {
 }
 
 // The cost of all eyes; photographs beside them add a similar cost, which the pace learns.
-double Drawing::coarse_cost(const Seen& eye, double scale) const {
+double Drawing::coarse_cost(const EyeDisplay& eye, double scale) const {
     const Display d = coarse_view(eye.display, eye.geometry, scale);
     return double(eyes_.size()) *
            (render_cost(d, resolve(d), true) + jpeg_cost * double(d.camera.resolution[0]) * double(d.camera.resolution[1]));
 }
 
 double Drawing::final_cost() const {
-    const Seen& eye = eyes_.front();
+    const EyeDisplay& eye = eyes_.front();
     return double(eyes_.size()) * (render_cost(eye.display, eye.geometry) + png_cost * wanted_.size[0] * wanted_.size[1]);
 }
 
-Drawing::Lit Drawing::true_light(const Seen& eye, Job& job) {
+Drawing::Lit Drawing::true_light(const EyeDisplay& eye, Job& job) {
     return {eye, panels_.get(eye.key, eye.made_for, eye.made_for_geometry, threads_, job)};
 }
 
-Drawing::Lit Drawing::quick_light(const Seen& eye, Job& job) {
+Drawing::Lit Drawing::quick_light(const EyeDisplay& eye, Job& job) {
     if (auto light = panels_.find(eye.key)) return {eye, light};
     if (eye.key.lengths.empty())
         return true_light(eye, job);  // an image, or a pattern that does not depend on lenses: a coarse one would not resemble it
@@ -70,7 +70,7 @@ Drawing::Lit Drawing::quick_light(const Seen& eye, Job& job) {
     coarse_panel_ = best_in_time(int(panel_divisors.size()), coarse_panel_, stand_in_seconds,
                                  [&](int k) { return panel_pace_.seconds(cost(k)); });
     const int divisor = panel_divisors[std::size_t(coarse_panel_)];
-    const std::optional<Seen> coarse = divisor > 1 ? with_coarse_panel(eye, divisor) : std::nullopt;
+    const std::optional<EyeDisplay> coarse = divisor > 1 ? with_coarse_panel(eye, divisor) : std::nullopt;
     if (!coarse) return true_light(eye, job);
     if (!stand_in_ || !(stand_in_key_ == coarse->key)) {
         stand_in_.reset();
@@ -138,7 +138,7 @@ Drawing::Frames Drawing::pictures(const std::vector<Lit>& all, Quality quality, 
 Drawing::Frames Drawing::coarse(Job& job) {
     std::vector<Lit> all;
     bool stand_in = false;
-    for (const Seen& eye : eyes_) {
+    for (const EyeDisplay& eye : eyes_) {
         all.push_back(quick_light(eye, job));
         stand_in = stand_in || !(all.back().seen.key == eye.key);
     }
@@ -159,13 +159,13 @@ bool Drawing::wants_fine() const {
 
 Drawing::Frames Drawing::fine(Job& job) {
     std::vector<Lit> all;
-    for (const Seen& eye : eyes_) all.push_back(true_light(eye, job));
+    for (const EyeDisplay& eye : eyes_) all.push_back(true_light(eye, job));
     return pictures(all, Quality::fine, 1, job);
 }
 
 Drawing::Frames Drawing::final(Job& job) {
     std::vector<Lit> all;
-    for (const Seen& eye : eyes_) all.push_back(true_light(eye, job));
+    for (const EyeDisplay& eye : eyes_) all.push_back(true_light(eye, job));
     stand_in_.reset();
     const auto start = Clock::now();
     Frames frames = pictures(all, Quality::final, 1, job);
@@ -173,10 +173,10 @@ Drawing::Frames Drawing::final(Job& job) {
     return frames;
 }
 
-Drawing::Frame Drawing::exr(std::int64_t id, Job& job) {
+Drawing::DrawnFrame Drawing::exr(std::int64_t id, Job& job) {
     std::vector<Image> images;
     FrameHeader header{id, "file", Quality::final};
-    for (const Seen& eye : eyes_) {
+    for (const EyeDisplay& eye : eyes_) {
         const Lit lit = true_light(eye, job);
         Rendering r = render(eye.display, eye.geometry, lit.light->summed(), {threads_, "", {}}, job);
         if (!r.complete) throw Stopped{};

@@ -15,11 +15,11 @@ class Drawing {
   public:
     Drawing(const Library& library, Panels& panels, int threads) : library_(library), panels_(panels), threads_(threads) {}
 
-    struct Frame {
+    struct DrawnFrame {
         std::string lane, bytes;
     };
     /// Frames that belong together: all of one state and quality.
-    using Frames = std::vector<Frame>;
+    using Frames = std::vector<DrawnFrame>;
 
     /// Begins another state. Throws InputError. With two eyes, what is shown beside them (`beside`) is for the left one.
     void begin(const Wanted&);
@@ -36,18 +36,18 @@ class Drawing {
     /// The same picture as lfdsim render.
     Frames final(Job&);
     /// The final picture as an OpenEXR file; two eyes' pictures are the file's picture and its layer "right".
-    Frame exr(std::int64_t id, Job&);
+    DrawnFrame exr(std::int64_t id, Job&);
 
   private:
     struct Lit {
-        Seen seen;
+        EyeDisplay seen;
         std::shared_ptr<const ShownPanel> light;
     };
-    Lit true_light(const Seen&, Job&);
-    Lit quick_light(const Seen&, Job&);
+    Lit true_light(const EyeDisplay&, Job&);
+    Lit quick_light(const EyeDisplay&, Job&);
     Frames pictures(const std::vector<Lit>&, Quality, double scale, Job&);
     void beside(const Lit&, const Display&, const Geometry&, FrameHeader, Image& view, Frames&, FrameHeader& of_view, Job&);
-    double coarse_cost(const Seen&, double scale) const;
+    double coarse_cost(const EyeDisplay&, double scale) const;
     double final_cost() const;
 
     const Library& library_;
@@ -55,7 +55,7 @@ class Drawing {
     const int threads_;
     Wanted wanted_;
     MemoryBudget::Claim pictures_;
-    std::vector<Seen> eyes_;
+    std::vector<EyeDisplay> eyes_;
     bool coarse_is_full_ = false;  // the last coarse picture of this state has its full size and the true panel
     Pace coarse_pace_{1}, final_pace_{1}, panel_pace_{1};
     int coarse_scale_ = 0, coarse_panel_ = 0;  // the last choices

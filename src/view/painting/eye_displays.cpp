@@ -14,10 +14,10 @@ std::string described_model(const Display& display) {
     return display.content.objects.empty() ? display.content.model : std::string(scene_of_objects);
 }
 
-Seen of_eye(const Library& library, const Wanted& wanted, const char* lane, int eye) {
+EyeDisplay of_eye(const Library& library, const Wanted& wanted, const char* lane, int eye) {
     const Display display = library.display(wanted, eye);
     const Geometry geometry = resolve(display);
-    Seen one{lane, display, geometry, display, geometry, source_of(library, wanted.shown, display), {}, {}};
+    EyeDisplay one{lane, display, geometry, display, geometry, source_of(library, wanted.shown, display), {}, {}};
     if (wanted.shown.hold) {
         Wanted described = wanted;
         described.set.clear();
@@ -46,13 +46,13 @@ Display coarse_panel(Display d, const Geometry& g, int divisor) {
 
 }  // namespace
 
-std::vector<Seen> seen(const Library& library, const Wanted& wanted) {
+std::vector<EyeDisplay> seen(const Library& library, const Wanted& wanted) {
     if (wanted.layout == Layout::one) return {of_eye(library, wanted, "one", 0)};
     return {of_eye(library, wanted, "left", -1), of_eye(library, wanted, "right", 1)};
 }
 
-std::optional<Seen> with_coarse_panel(const Seen& one, int divisor) {
-    Seen coarse = one;
+std::optional<EyeDisplay> with_coarse_panel(const EyeDisplay& one, int divisor) {
+    EyeDisplay coarse = one;
     coarse.display = coarse_panel(one.display, one.geometry, divisor);
     coarse.made_for = coarse_panel(one.made_for, one.made_for_geometry, divisor);
     if (!validate(coarse.display).empty() || !validate(coarse.made_for).empty()) return std::nullopt;

@@ -9,23 +9,23 @@
 namespace lfdsim::view {
 
 /// One eye's display, and the display that its panel's light was made for, a different one where the elemental images are held.
-struct Seen {
+struct EyeDisplay {
     std::string lane;
     Display display;
     Geometry geometry;
     Display made_for;
     Geometry made_for_geometry;
-    Source source;
-    Source model;  // of the scene, for photographs; its name is empty where there is none
+    PanelContent source;
+    PanelContent model;  // of the scene, for photographs; its name is empty where there is none
     PanelKey key;
 };
 
 /// One for each eye, the left one first. Throws InputError.
-std::vector<Seen> seen(const Library&, const Wanted&);
+std::vector<EyeDisplay> seen(const Library&, const Wanted&);
 
 /// The same with a panel of `divisor` times fewer columns and rows, of larger pixels: its elemental images are close to the true
 /// ones. Nothing where such a display is not valid. divisor >= 1.
-std::optional<Seen> with_coarse_panel(const Seen&, int divisor);
+std::optional<EyeDisplay> with_coarse_panel(const EyeDisplay&, int divisor);
 
 /// The fastest view of the same: columns and rows times `scale`, 0 .. 1, the fewest possible samples, and neither pixel filter nor
 /// pupil, which would need many. Its geometry must be resolved again.

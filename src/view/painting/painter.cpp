@@ -163,7 +163,7 @@ void Painter::Impl::run() {
         if (!file) continue;
         const bool done = guarded([&] {
             PainterJob job = work(&Impl::newer);
-            Drawing::Frame frame = drawing.exr(*file, job);
+            Drawing::DrawnFrame frame = drawing.exr(*file, job);
             outbox.frame(frame.lane, std::move(frame.bytes));
         });
         const std::lock_guard lock(mutex);
@@ -198,7 +198,7 @@ bool Painter::Impl::rests() {
 }
 
 void Painter::Impl::send(Drawing::Frames frames) {
-    for (Drawing::Frame& frame : frames) outbox.frame(frame.lane, std::move(frame.bytes));
+    for (Drawing::DrawnFrame& frame : frames) outbox.frame(frame.lane, std::move(frame.bytes));
     shown = true;
 }
 

@@ -30,7 +30,7 @@ Entry* used(std::list<Entry>& all, const Is& is) {
     return &all.front();
 }
 
-Source of_file(Shown::Kind kind, const std::string& path) {
+PanelContent of_file(Shown::Kind kind, const std::string& path) {
     // An error here is reported when the file is read.
     std::error_code error;
     const auto changed = fs::last_write_time(path, error).time_since_epoch().count();
@@ -38,7 +38,7 @@ Source of_file(Shown::Kind kind, const std::string& path) {
     return {kind, path, error ? 0 : std::int64_t(changed), error ? 0 : std::int64_t(bytes)};
 }
 
-bool drawn_for_lenses(const Source& source) {
+bool drawn_for_lenses(const PanelContent& source) {
     return source.kind == Shown::Kind::model ||
            (source.kind == Shown::Kind::pattern && (source.name == "view" || source.name == "edge"));
 }
@@ -59,15 +59,15 @@ Content pose_of(const Display& d, const Geometry& g) {
 
 }  // namespace
 
-Source model_source(const std::string& name, const Display& display) {
+PanelContent model_source(const std::string& name, const Display& display) {
     if (name.empty() || name == built_in_spheres) return {Shown::Kind::model, name};
     if (name != scene_of_objects) return of_file(Shown::Kind::model, name);
-    Source scene{Shown::Kind::model, name};
+    PanelContent scene{Shown::Kind::model, name};
     for (const ContentFile& file : content_files(display)) scene.objects.push_back(of_file(Shown::Kind::model, file.path));
     return scene;
 }
 
-Source source_of(const Library& library, const Shown& shown, const Display& display) {
+PanelContent source_of(const Library& library, const Shown& shown, const Display& display) {
     const Start& start = library.start();
     switch (shown.kind) {
         case Shown::Kind::model:
@@ -87,7 +87,7 @@ Source source_of(const Library& library, const Shown& shown, const Display& disp
 
 // The nodal pick-up (content/pickup/pickup.h) and the model's pose (content/pictures/scene.cpp) depend on these resolved numbers
 // only.
-PanelKey panel_key(const Source& source, const Display& d, const Geometry& built) {
+PanelKey panel_key(const PanelContent& source, const Display& d, const Geometry& built) {
     const Geometry g = meant_geometry(d, built);
     PanelKey key{source, d.panel.pixels, d.panel.encoding, {}, {}};
     if (!drawn_for_lenses(source)) return key;
@@ -102,13 +102,13 @@ PanelKey panel_key(const Source& source, const Display& d, const Geometry& built
     const std::vector<double> shown = shown_places(d);
     key.lengths.insert(key.lengths.end(), shown.begin(), shown.end());
     if (d.content.pickup != PickupKind::nodal)
-        key.traced = RealLens{d.content.pickup, d.content.pickup_rays, d.panel, d.lens, d.array};
+        key.traced = LensContent{d.content.pickup, d.content.pickup_rays, d.panel, d.lens, d.array};
     return key;
 }
 
 std::shared_ptr<const ShownPanel> Panels::find(const PanelKey& key) {
     const std::lock_guard lock(mutex_);
-    const Made* const panel = used(panels_, [&](const Made& p) { return p.key == key; });
+    const MadePanel* const panel = used(panels_, [&](const MadePanel& p) { return p.key == key; });
     return panel ? panel->light : nullptr;
 }
 
@@ -118,18 +118,18 @@ std::shared_ptr<const ShownPanel> Panels::get(const PanelKey& key, const Display
     const std::shared_ptr<const ShownPanel> light = make(key.source, display, geometry, threads, job);
     const std::lock_guard lock(mutex_);
     // Another visitor may have made it in the meantime.
-    if (const Made* const panel = used(panels_, [&](const Made& p) { return p.key == key; })) return panel->light;
+    if (const MadePanel* const panel = used(panels_, [&](const MadePanel& p) { return p.key == key; })) return panel->light;
     panels_.push_front({key, light, texel_bytes(display)});
     double bytes = 0;
     std::size_t count = 0;
-    panels_.remove_if([&](const Made& p) {
+    panels_.remove_if([&](const MadePanel& p) {
         bytes += p.bytes;
         return ++count > most_panels || (count > 1 && bytes > most_bytes);
     });
     return light;
 }
 
-double Panels::needed_bytes(const Source& source, const Display& display) {
+double Panels::needed_bytes(const PanelContent& source, const Display& display) {
     return source.kind == Shown::Kind::panel_image ? texel_bytes(display) : making_panel_bytes(display);
 }
 
@@ -142,12 +142,12 @@ void Panels::make_room(double bytes) {
         for (auto one = all.end(); one != all.begin() && !budget_.fits(bytes);)
             if (idle(*--one)) one = all.erase(one);
     };
-    drop(panels_, [](const Made& p) { return p.light.use_count() == 1; });
+    drop(panels_, [](const MadePanel& p) { return p.light.use_count() == 1; });
     drop(scenes_, [](const Posed& p) { return !has_copies(p.scene); });
     drop(models_, [](const Loaded& l) { return is_read(l.parts) && l.held.use_count() <= long(l.count); });
 }
 
-MemoryBudget::Claim Panels::claim(const Source& source, const Display& display) {
+MemoryBudget::Claim Panels::claim(const PanelContent& source, const Display& display) {
     const double bytes = needed_bytes(source, display);
     const std::lock_guard lock(mutex_);
     make_room(bytes);
@@ -158,8 +158,8 @@ void Panels::require(const PanelKey& key, const Display& display) {
     if (!find(key)) claim(key.source, display);
 }
 
-std::shared_ptr<const ShownPanel> Panels::make(const Source& source, const Display& display, const Geometry& geometry, int threads,
-                                               Job& job) {
+std::shared_ptr<const ShownPanel> Panels::make(const PanelContent& source, const Display& display, const Geometry& geometry,
+                                               int threads, Job& job) {
     struct Claimed {
         MemoryBudget::Claim claim;
         std::shared_ptr<const ShownPanel> light;
@@ -171,7 +171,7 @@ std::shared_ptr<const ShownPanel> Panels::make(const Source& source, const Displ
     return {made, made->light.get()};
 }
 
-std::shared_ptr<const ShownPanel> Panels::make_claimed(const Source& source, const Display& display, const Geometry& geometry,
+std::shared_ptr<const ShownPanel> Panels::make_claimed(const PanelContent& source, const Display& display, const Geometry& geometry,
                                                        int threads, Job& job) {
     const Panel& panel = display.panel;
     if (source.kind == Shown::Kind::panel_image)
@@ -185,7 +185,7 @@ std::shared_ptr<const ShownPanel> Panels::make_claimed(const Source& source, con
     return std::make_shared<ShownPanel>(shown_texels(images.image, panel.encoding), threads);
 }
 
-void Panels::prepare(const Source& source, const Display& display, const Geometry& geometry, int threads, Job& job) {
+void Panels::prepare(const PanelContent& source, const Display& display, const Geometry& geometry, int threads, Job& job) {
     if (source.kind == Shown::Kind::panel_image) {
         get(panel_key(source, display, geometry), display, geometry, threads, job);
         return;
@@ -194,7 +194,7 @@ void Panels::prepare(const Source& source, const Display& display, const Geometr
     if (source.kind == Shown::Kind::model) scene(source, display, geometry, job);
 }
 
-ContentScene Panels::scene(const Source& source, const Display& display, const Geometry& geometry, Job& job) {
+ContentScene Panels::scene(const PanelContent& source, const Display& display, const Geometry& geometry, Job& job) {
     if (source.kind != Shown::Kind::model || source.name.empty())
         throw InputError("shown", "is not a model: name a mesh file, or built-in:spheres");
     const Content pose = pose_of(display, geometry);
@@ -220,7 +220,7 @@ ContentScene Panels::scene(const Source& source, const Display& display, const G
     return made;
 }
 
-ContentParts Panels::parts(const Source& source, const Display& display, Job& job) {
+ContentParts Panels::parts(const PanelContent& source, const Display& display, Job& job) {
     if (source.name == built_in_spheres) return {built_in_model()};
     const PartsFuture future = reading(source, display);
     job.stage("model", 1);
@@ -238,15 +238,15 @@ ContentParts Panels::parts(const Source& source, const Display& display, Job& jo
 }
 
 // A separate process reads each file, in a thread that continues when nobody waits any more: the next caller wants the same ones.
-Panels::PartsFuture Panels::reading(const Source& source, const Display& display) {
+Panels::PartsFuture Panels::reading(const PanelContent& source, const Display& display) {
     const std::lock_guard lock(mutex_);
     if (const Loaded* const loaded = used(models_, [&](const Loaded& l) { return l.source == source; })) return loaded->parts;
     const bool scene = source.name == scene_of_objects;
-    struct Read {
+    struct ReadParts {
         MemoryBudget::Claim claim;
         ContentParts parts;
     };
-    auto read = std::make_shared<Read>();
+    auto read = std::make_shared<ReadParts>();
     LoadOptions options;
     // The process that reads needs as much again. How much that is, is known only then.
     make_room(2 * double(options.bytes));
@@ -276,7 +276,7 @@ Panels::PartsFuture Panels::reading(const Source& source, const Display& display
 Panels::Kept Panels::kept() const {
     const std::lock_guard lock(mutex_);
     double bytes = 0;
-    for (const Made& p : panels_) bytes += p.bytes;
+    for (const MadePanel& p : panels_) bytes += p.bytes;
     return {panels_.size(), scenes_.size(), models_.size(), bytes};
 }
 

@@ -17,42 +17,42 @@
 namespace lfdsim::view {
 
 /// What a panel shows, with names resolved to files.
-struct Source {
+struct PanelContent {
     Shown::Kind kind = Shown::Kind::model;  // never start
     std::string name;                     // path, built-in:spheres, or a pattern's name; empty: no model is known, as with an image
     std::int64_t changed = 0, bytes = 0;  // of a file, at the last check
-    std::vector<Source> objects = {};     // of scene_of_objects: each one's file
-    bool operator==(const Source&) const = default;
+    std::vector<PanelContent> objects = {};  // of scene_of_objects: each one's file
+    bool operator==(const PanelContent&) const = default;
 };
 
 /// A mesh file by its path, built-in:spheres, or the display's scene_of_objects.
-Source model_source(const std::string& name, const Display&);
+PanelContent model_source(const std::string& name, const Display&);
 
 /// Throws InputError for names that a page may not use.
-Source source_of(const Library&, const Shown&, const Display&);
+PanelContent source_of(const Library&, const Shown&, const Display&);
 
 /// Everything that a panel's light depends on: equal keys mean equal bits.
 /// What elemental images for the real lens depend on, too.
-struct RealLens {
+struct LensContent {
     PickupKind pickup;
     std::int64_t rays;
     Panel panel;
     Lens lens;
     LensArray array;
-    bool operator==(const RealLens&) const = default;
+    bool operator==(const LensContent&) const = default;
 };
 
 struct PanelKey {
-    Source source;
+    PanelContent source;
     std::array<std::int64_t, 2> pixels{};
     Encoding encoding{};
     Content content;              // of a model or scene: how it stands and what lights it; else a fresh one
     std::vector<double> lengths;  // the display's numbers that elemental images and drawn patterns depend on; empty for others
-    std::optional<RealLens> traced = {};  // unless the pick-up is nodal
-    Errors errors = {};                   // that the panel's light knows of
+    std::optional<LensContent> traced = {};  // unless the pick-up is nodal
+    Errors errors = {};                      // that the panel's light knows of
     bool operator==(const PanelKey&) const = default;
 };
-PanelKey panel_key(const Source&, const Display&, const Geometry&);
+PanelKey panel_key(const PanelContent&, const Display&, const Geometry&);
 
 class Panels {
   public:
@@ -73,17 +73,17 @@ class Panels {
     std::shared_ptr<const ShownPanel> get(const PanelKey&, const Display&, const Geometry&, int threads, Job&);
 
     /// Makes it, and keeps only model and scene.
-    std::shared_ptr<const ShownPanel> make(const Source&, const Display&, const Geometry&, int threads, Job&);
+    std::shared_ptr<const ShownPanel> make(const PanelContent&, const Display&, const Geometry&, int threads, Job&);
 
     /// Reads the picture or model that a source names, and keeps it, so that errors are reported before anyone visits. Throws like
     /// get().
-    void prepare(const Source&, const Display&, const Geometry&, int threads, Job&);
+    void prepare(const PanelContent&, const Display&, const Geometry&, int threads, Job&);
 
     /// The model or scene of a source, placed at its depth in the display. Throws like get().
-    ContentScene scene(const Source&, const Display&, const Geometry&, Job&);
+    ContentScene scene(const PanelContent&, const Display&, const Geometry&, Job&);
 
     /// Its files alone, read only once for all callers, without blocking other calls. Throws like get().
-    ContentParts parts(const Source&, const Display&, Job&);
+    ContentParts parts(const PanelContent&, const Display&, Job&);
 
     /// What is kept now; at most 3 panels, and 2 GiB unless a single one takes more.
     struct Kept {
@@ -93,27 +93,27 @@ class Panels {
     Kept kept() const;
 
   private:
-    MemoryBudget::Claim claim(const Source&, const Display&);
-    static double needed_bytes(const Source&, const Display&);
+    MemoryBudget::Claim claim(const PanelContent&, const Display&);
+    static double needed_bytes(const PanelContent&, const Display&);
     void make_room(double bytes);  // with the lists locked
-    std::shared_ptr<const ShownPanel> make_claimed(const Source&, const Display&, const Geometry&, int threads, Job&);
+    std::shared_ptr<const ShownPanel> make_claimed(const PanelContent&, const Display&, const Geometry&, int threads, Job&);
 
     using PartsFuture = std::shared_future<ContentParts>;
     static bool is_read(const PartsFuture&);
-    PartsFuture reading(const Source&, const Display&);
+    PartsFuture reading(const PanelContent&, const Display&);
 
-    struct Made {
+    struct MadePanel {
         PanelKey key;
         std::shared_ptr<const ShownPanel> light;
         double bytes;
     };
     struct Posed {
-        Source source;
+        PanelContent source;
         Content pose;
         ContentScene scene;
     };
     struct Loaded {
-        Source source;
+        PanelContent source;
         PartsFuture parts;
         std::weak_ptr<const void> held;  // by each of the parts
         std::size_t count;
@@ -121,7 +121,7 @@ class Panels {
     MemoryBudget budget_;       // outlives what is kept
     mutable std::mutex mutex_;  // of the lists; never held while something is made
     // Newest use first.
-    std::list<Made> panels_;
+    std::list<MadePanel> panels_;
     std::list<Posed> scenes_;
     std::list<Loaded> models_;
 };

@@ -17,11 +17,11 @@ DracoMesh::DracoMesh(std::string_view bytes) {
 
 DracoMesh::~DracoMesh() = default;
 
-Numbers DracoMesh::numbers(std::uint32_t id, const Item& accessor) const {
+AccessorValues DracoMesh::numbers(std::uint32_t id, const Item& accessor) const {
     const draco::PointAttribute* const attribute = mesh_->GetAttributeByUniqueId(id);
     if (!attribute) accessor.fail("is not among its data by KHR_draco_mesh_compression");
     const auto width = std::size_t(attribute->num_components()), count = std::size_t(mesh_->num_points());
-    Numbers out{width, count, std::vector<double>(width * count)};
+    AccessorValues out{width, count, std::vector<double>(width * count)};
     for (std::uint32_t i = 0; i < mesh_->num_points(); ++i)
         if (!attribute->ConvertValue(attribute->mapped_index(draco::PointIndex(i)), attribute->num_components(),
                                      &out.all[i * width]))

@@ -20,7 +20,7 @@ class DracoMesh {
     ~DracoMesh();
 
     /// The attribute that the extension calls `id`, which `accessor` describes.
-    Numbers numbers(std::uint32_t id, const Item& accessor) const;
+    AccessorValues numbers(std::uint32_t id, const Item& accessor) const;
     /// Three for each triangle.
     std::vector<double> indices() const;
 

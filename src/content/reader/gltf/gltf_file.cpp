@@ -208,7 +208,7 @@ void GltfFile::read(const Layout& at, std::string_view from, double* to) const {
     }
 }
 
-Numbers GltfFile::numbers(const Item& accessor) {
+AccessorValues GltfFile::numbers(const Item& accessor) {
     Layout at{};
     at.accessor = &accessor;
     at.type = accessor.at("componentType").whole(0);
@@ -230,7 +230,7 @@ Numbers GltfFile::numbers(const Item& accessor) {
         if (at.stride < 1 || at.stride > 65535) from->at("byteStride").fail("is out of range");
     }
     if (from && at.count > 0 && at.count - 1 > bytes.size() / at.stride) accessor.fail("has more elements than bytes");
-    Numbers out{at.width, at.count, std::vector<double>(at.width * at.count)};
+    AccessorValues out{at.width, at.count, std::vector<double>(at.width * at.count)};
     if (from) read(at, bytes, out.all.data());
     if (sparse.is_there()) replace(out, at, sparse);
     out.normalize(accessor);
@@ -238,7 +238,7 @@ Numbers GltfFile::numbers(const Item& accessor) {
 }
 
 // Elements that replace some of an accessor's.
-void GltfFile::replace(Numbers& out, const Layout& at, const Item& sparse) {
+void GltfFile::replace(AccessorValues& out, const Layout& at, const Item& sparse) {
     Layout indices = at, values = at;
     indices.count = values.count = sparse.at("count").whole(0);
     if (values.count > at.count) sparse.fail("has more elements than its accessor");
@@ -263,7 +263,7 @@ void GltfFile::replace(Numbers& out, const Layout& at, const Item& sparse) {
 }
 
 // glTF 2.0, 3.6.2.2.
-void Numbers::normalize(const Item& accessor) {
+void AccessorValues::normalize(const Item& accessor) {
     if (!accessor.at("normalized").truth(false)) return;
     double most = 1;
     switch (accessor.at("componentType").whole(0)) {

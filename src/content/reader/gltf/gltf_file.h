@@ -13,7 +13,7 @@ namespace lfdsim::reader {
 
 /// What an accessor names, in double precision: `count` elements of `width` numbers; normalized integers as the fractions they
 /// mean.
-struct Numbers {
+struct AccessorValues {
     std::size_t width = 0, count = 0;
     std::vector<double> all;
 
@@ -36,7 +36,7 @@ class GltfFile {
     std::optional<Item> named(const Item& number, const char* list) const;
 
     std::string_view view(const Item& buffer_view);
-    Numbers numbers(const Item& accessor);
+    AccessorValues numbers(const Item& accessor);
     /// What a data: URI holds; none of others.
     static std::optional<std::string> data_of(const std::string& uri);
     /// The file that a URI names: %20 and the like stand for bytes.
@@ -45,7 +45,7 @@ class GltfFile {
   private:
     struct Layout;
     void read(const Layout&, std::string_view from, double* to) const;
-    void replace(Numbers&, const Layout&, const Item& sparse);
+    void replace(AccessorValues&, const Layout&, const Item& sparse);
     const std::string& buffer(std::size_t number, const Item& wanted_by);
 
     std::string bytes_;

@@ -35,7 +35,7 @@ void check_extensions(const Item& required, NotShown& not_shown) {
 std::vector<Matrix> joints_of(GltfFile& file, const GltfNodes& nodes, const Item& skin) {
     std::vector<Matrix> joints;
     const Item numbers = skin.at("joints");
-    std::optional<Numbers> inverse;
+    std::optional<AccessorValues> inverse;
     if (const auto accessor = file.named(skin.at("inverseBindMatrices"), "accessors")) {
         inverse = file.numbers(*accessor);
         if (inverse->width != 16 || inverse->count < numbers.size()) accessor->fail("has no matrix for each joint");
@@ -59,7 +59,7 @@ std::vector<Matrix> instances_of(GltfFile& file, const Item& instancing, const M
     struct {
         const char* name;
         std::size_t width;
-        std::optional<Numbers> numbers;
+        std::optional<AccessorValues> numbers;
     } lists[] = {{"TRANSLATION", 3, {}}, {"ROTATION", 4, {}}, {"SCALE", 3, {}}};
     std::optional<std::size_t> count;
     for (auto& list : lists) {
@@ -95,7 +95,7 @@ void hand_over(std::vector<std::unique_ptr<T>>& from, T**& to, unsigned& count) 
 
 // The scene's one node has all meshes.
 void fill(aiScene& scene, GltfMeshes& read) {
-    Middle middle;
+    BoxMiddle middle;
     for (const Piece& piece : read.pieces)
         for (const Place& p : piece.places) middle.add(p);
     const Place offset = middle.offset();

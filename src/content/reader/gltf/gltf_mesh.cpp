@@ -33,8 +33,8 @@ struct GltfMeshes::Primitive {
 
 /// What the instances of a primitive have in common.
 struct GltfMeshes::Vertices {
-    Numbers places;
-    std::optional<Numbers> normals, uvs, colours;
+    AccessorValues places;
+    std::optional<AccessorValues> normals, uvs, colours;
     UvTransform uv_transform;
     std::vector<std::uint32_t> triangles;
     unsigned material;
@@ -78,7 +78,7 @@ void GltfMeshes::add_primitive(const Item& item, const Posing& posing) {
     for (const Matrix& instance : posing.instances) place(v, {instance});
 }
 
-std::optional<Numbers> GltfMeshes::numbers(const Primitive& primitive, const std::string& attribute) {
+std::optional<AccessorValues> GltfMeshes::numbers(const Primitive& primitive, const std::string& attribute) {
     const auto accessor = file_.named(primitive.item.at("attributes").at(attribute.c_str()), "accessors");
     if (!accessor) return {};
     const Item id = primitive.packed_ids.at(attribute.c_str());
@@ -87,9 +87,9 @@ std::optional<Numbers> GltfMeshes::numbers(const Primitive& primitive, const std
 }
 
 // With the displacements of morph targets times their weights.
-std::optional<Numbers> GltfMeshes::posed(const Primitive& primitive, const char* attribute, const Posing& posing, std::size_t least,
-                                         std::size_t most) {
-    std::optional<Numbers> all = numbers(primitive, attribute);
+std::optional<AccessorValues> GltfMeshes::posed(const Primitive& primitive, const char* attribute, const Posing& posing,
+                                                std::size_t least, std::size_t most) {
+    std::optional<AccessorValues> all = numbers(primitive, attribute);
     if (!all) return {};
     if (all->width < least || all->width > most)
         primitive.item.at("attributes").at(attribute).fail("names an accessor of the wrong type");
@@ -98,7 +98,7 @@ std::optional<Numbers> GltfMeshes::posed(const Primitive& primitive, const char*
         const double weight = posing.morph_weights[t];
         const auto target = weight == 0 ? std::nullopt : file_.named(targets[t].at(attribute), "accessors");
         if (!target) continue;
-        const Numbers moves = file_.numbers(*target);
+        const AccessorValues moves = file_.numbers(*target);
         if (moves.width != all->width || moves.count != all->count) target->fail("has not the size of what it moves");
         for (std::size_t i = 0; i < moves.all.size(); ++i) all->all[i] += weight * moves.all[i];
     }
@@ -143,7 +143,7 @@ std::vector<Matrix> GltfMeshes::joint_matrices(const Primitive& primitive, const
         const auto joint_list = numbers(primitive, joint_name), weight_list = numbers(primitive, "WEIGHTS_" + std::to_string(set));
         if (!joint_list || !weight_list) break;
         const Item joint_number = primitive.item.at("attributes").at(joint_name.c_str());
-        const Numbers &joints = *joint_list, &weights = *weight_list;
+        const AccessorValues &joints = *joint_list, &weights = *weight_list;
         if (joints.width != 4 || weights.width != 4 || joints.count != vertices || weights.count != vertices)
             joint_number.fail("has not four joints and weights for each vertex");
         for (std::size_t i = 0; i < joints.all.size(); ++i) {

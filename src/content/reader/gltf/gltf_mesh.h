@@ -34,8 +34,9 @@ class GltfMeshes {
     struct Primitive;
     struct Vertices;
     void add_primitive(const Item& primitive, const Posing&);
-    std::optional<Numbers> numbers(const Primitive&, const std::string& attribute);
-    std::optional<Numbers> posed(const Primitive&, const char* attribute, const Posing&, std::size_t least, std::size_t most);
+    std::optional<AccessorValues> numbers(const Primitive&, const std::string& attribute);
+    std::optional<AccessorValues> posed(const Primitive&, const char* attribute, const Posing&, std::size_t least,
+                                        std::size_t most);
     std::vector<std::uint32_t> triangles(const Primitive&, std::size_t mode, std::size_t vertices);
     std::vector<Matrix> joint_matrices(const Primitive&, const Posing&, std::size_t vertices);
     void place(const Vertices&, const std::vector<Matrix>& at);

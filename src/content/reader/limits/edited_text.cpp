@@ -59,12 +59,12 @@ class Positions {
 };
 
 /// A line's position, and what follows it.
-struct Found {
+struct EditedLine {
     Place place;
     std::string_view rest;
 };
-std::optional<Found> position(std::string_view text) {
-    Found found;
+std::optional<EditedLine> position(std::string_view text) {
+    EditedLine found;
     for (unsigned k = 0; k < 3; ++k) {
         const auto x = next_number(text);
         if (!x) return {};
@@ -84,7 +84,7 @@ bool is_unusual(std::string_view rest) {
 }  // namespace
 
 std::optional<std::string> nearer_the_origin(std::string_view text, std::string_view ending) {
-    Middle middle;
+    BoxMiddle middle;
     std::string_view rest = text;
     for (Positions positions(ending); !rest.empty();) {
         const std::string_view line = next_line(rest);

@@ -35,10 +35,10 @@ double PlyFile::unit_of(Type type) {
 /// The numbers after the header.
 class PlyFile::Body {
   public:
-    Body(std::string_view bytes, Form form) : rest_(bytes), form_(form) {}
+    Body(std::string_view bytes, PlyEncoding form) : rest_(bytes), form_(form) {}
 
     double number(Type type) {
-        if (form_ == Form::text) return word();
+        if (form_ == PlyEncoding::text) return word();
         switch (type) {
             case Type::int8:
                 return take<std::int8_t>();
@@ -68,7 +68,7 @@ class PlyFile::Body {
         if (rest_.size() < sizeof(T)) throw std::runtime_error("it ends before its data do: it is cut short");
         std::memcpy(bytes, rest_.data(), sizeof(T));
         rest_.remove_prefix(sizeof(T));
-        if (form_ == Form::big_endian) std::reverse(bytes, bytes + sizeof(T));
+        if (form_ == PlyEncoding::big_endian) std::reverse(bytes, bytes + sizeof(T));
         T value;
         std::memcpy(&value, bytes, sizeof(T));
         return value;
@@ -86,7 +86,7 @@ class PlyFile::Body {
     }
 
     std::string_view rest_;
-    Form form_;
+    PlyEncoding form_;
 };
 
 void PlyFile::read(PlyElement& element, const std::vector<Column>& columns, Body& body) {
@@ -135,11 +135,11 @@ PlyFile::PlyFile(std::string_view bytes) {
             words >> name;
             has_form = true;
             if (name == "ascii")
-                form_ = Form::text;
+                form_ = PlyEncoding::text;
             else if (name == "binary_little_endian")
-                form_ = Form::little_endian;
+                form_ = PlyEncoding::little_endian;
             else if (name == "binary_big_endian")
-                form_ = Form::big_endian;
+                form_ = PlyEncoding::big_endian;
             else
                 throw std::runtime_error("its header has an unknown format");
         } else if (key == "comment") {

@@ -41,7 +41,7 @@ struct PlyFile {
 
   private:
     enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-    enum class Form { text, little_endian, big_endian };
+    enum class PlyEncoding { text, little_endian, big_endian };
     struct Column {
         Type count, value;  // count: of a list
     };
@@ -51,7 +51,7 @@ struct PlyFile {
     static void read(PlyElement&, const std::vector<Column>&, Body&);
 
     std::string_view body_;
-    Form form_{};
+    PlyEncoding form_{};
     std::vector<std::vector<Column>> columns_;  // of each element
 };
 

@@ -192,7 +192,7 @@ class Reading {
     Columns place_, normal_, uv_, colour_, face_colour_;
     bool own_uvs_ = false;
     std::map<std::size_t, Polygons> meshes_;  // by their textures' numbers
-    Middle middle_;
+    BoxMiddle middle_;
     Place offset_;
 };
 
