@@ -179,12 +179,11 @@ class LensDomain {
         const optics::Mask<F> cut = there && !(round ? hole_holds(map, from_x, from_y, cell) : optics::holds(corners, cell));
         if (any(cut)) {
             const optics::Moments<F> of = round ? part_in_hole(map, from_x, from_y, cell) : optics::part_within(corners, cell);
-            part = {select(cut, F(S(0.25)) * of.area, part.share),
-                    select(cut, of.x, part.u),
-                    select(cut, of.y, part.v),
-                    select(cut, of.half_width, part.half_u),
-                    select(cut, of.half_height, part.half_v),
-                    {}};
+            part.share = select(cut, F(S(0.25)) * of.area, part.share);
+            part.u = select(cut, of.x, part.u);
+            part.v = select(cut, of.y, part.v);
+            part.half_u = select(cut, of.half_width, part.half_u);
+            part.half_v = select(cut, of.half_height, part.half_v);
         }
         part.share = select(there && (part.share > F(S(1e-7))), part.share, zero);
         return part;

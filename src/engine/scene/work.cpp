@@ -53,26 +53,26 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
     // A target error takes more strata than the first picture has.
     const BlockShape shape = block_shape(scene, view, target_error ? 2 * few_strata : strata, options.rough);
 
-    tile = {&scene,
-            &view,
-            &sobol_directions(),
-            planes[0].texels,
-            {planes.data(), scene.emission.whole, &scene.emission},
-            nullptr,
-            crop.x0,
-            crop.y0,
-            crop.x1 - crop.x0,
-            crop.x0,
-            crop.y0,
-            crop.x1,
-            crop.y1,
-            std::uint32_t(samples),
-            strata,
-            filtered && (result.estimator == Estimator::lens_by_lens || !shape.shared),
-            shape.side,
-            cuts_pixel(scene, view),
-            display.render.sampling,
-            dimensions};
+    tile = {.display = &scene,
+            .view = &view,
+            .directions = &sobol_directions(),
+            .texels = planes[0].texels,
+            .panel = {.plane = planes.data(), .whole = scene.emission.whole, .emission = &scene.emission},
+            .out = nullptr,  // make_pictures()
+            .crop_x = crop.x0,
+            .crop_y = crop.y0,
+            .crop_width = crop.x1 - crop.x0,
+            .x0 = crop.x0,
+            .y0 = crop.y0,
+            .x1 = crop.x1,
+            .y1 = crop.y1,
+            .samples = std::uint32_t(samples),
+            .strata = strata,
+            .lens_by_lens = filtered && (result.estimator == Estimator::lens_by_lens || !shape.shared),
+            .block_side = shape.side,
+            .cuts_pixel = cuts_pixel(scene, view),
+            .sampling = display.render.sampling,
+            .dimensions = dimensions};
 }
 
 void Work::make_pictures(bool with_error) {
