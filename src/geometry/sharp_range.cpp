@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/model.md, "Depth of field".
+// docs/measures.md, "Depth of field".
 namespace lfdsim {
 namespace {
 

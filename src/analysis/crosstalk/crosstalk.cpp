@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-// What one eye sees of neighbouring views. docs/model.md, "Crosstalk".
+// What one eye sees of neighbouring views. docs/measures.md, "Crosstalk".
 namespace lfdsim {
 namespace crosstalk {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-// Crosstalk between the eyes. docs/model.md, "Crosstalk".
+// Crosstalk between the eyes. docs/measures.md, "Crosstalk".
 namespace lfdsim::crosstalk {
 namespace {
 

@@ -16,7 +16,7 @@ struct ParaxialLine {
     bool through;                // it meets the clear aperture; else `seen` has no meaning
 };
 
-/// The lenses have no thickness: lines bend by q/f in the plane of H', q from the axis (docs/model.md, "Moire" and "Crosstalk").
+/// The lenses have no thickness: lines bend by q/f in the plane of H', q from the axis (docs/measures.md, "Moire" and "Crosstalk").
 /// Strips bend what runs across them; along them there are plane plates, whose thickness counts over its index. Below thin lenses
 /// the layers bend lines by Snell's law itself.
 class ParaxialLines {

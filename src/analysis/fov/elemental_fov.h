@@ -1,4 +1,4 @@
-// The field of view by geometry: from where lenses show their own elemental images. Floor 3. docs/model.md, "Field of view".
+// The field of view by geometry: from where lenses show their own elemental images. Floor 3. docs/measures.md, "Field of view".
 #pragma once
 #include "analysis/core/eye_rays.h"
 #include "analysis/core/parallel.h"

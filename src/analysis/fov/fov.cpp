@@ -8,7 +8,7 @@
 #include <cmath>
 
 // The field of view by geometry; and by simulated views beside photographs of the scene, against the angle of the view.
-// docs/model.md, "Field of view".
+// docs/measures.md, "Field of view".
 namespace lfdsim {
 namespace {
 

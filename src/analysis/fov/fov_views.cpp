@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/model.md, "Field of view".
+// docs/measures.md, "Field of view".
 namespace lfdsim {
 namespace {
 

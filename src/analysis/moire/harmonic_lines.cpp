@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-// docs/model.md, "Moire".
+// docs/measures.md, "Moire".
 namespace lfdsim {
 namespace {
 

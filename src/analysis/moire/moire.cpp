@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/model.md, "Moire".
+// docs/measures.md, "Moire".
 namespace lfdsim {
 namespace {
 

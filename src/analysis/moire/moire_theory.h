@@ -1,4 +1,4 @@
-// The beats of the lens lattice with the panel's pixels, in closed form. docs/model.md, "Moire". Floor 3.
+// The beats of the lens lattice with the panel's pixels, in closed form. docs/measures.md, "Moire". Floor 3.
 #pragma once
 #include "analysis/moire/eye_filter.h"
 #include "analysis/moire/wave_sums.h"

@@ -12,7 +12,7 @@
 #include <cmath>
 
 // SSIM between the simulated view and a photograph of the scene, against the scene's depth; beside it the depths of field by spot
-// size and diffraction. docs/model.md, "Depth of field".
+// size and diffraction. docs/measures.md, "Depth of field".
 namespace lfdsim {
 namespace {
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-// docs/model.md, "Resolution".
+// docs/measures.md, "Resolution".
 namespace lfdsim {
 namespace {
 

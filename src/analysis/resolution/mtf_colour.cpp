@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-// docs/model.md, "Resolution".
+// docs/measures.md, "Resolution".
 namespace lfdsim {
 namespace {
 

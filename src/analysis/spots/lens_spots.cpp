@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/model.md, "Spots of one lens".
+// docs/measures.md, "Spots of one lens".
 namespace lfdsim {
 namespace {
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-// docs/model.md, "Spots of one lens".
+// docs/measures.md, "Spots of one lens".
 namespace lfdsim {
 namespace {
 

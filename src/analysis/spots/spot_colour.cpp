@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-// docs/model.md, "Colour of one lens".
+// docs/measures.md, "Colour of one lens".
 namespace lfdsim {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-// docs/model.md, "Depth of field by spot size".
+// docs/measures.md, "Depth of field by spot size".
 namespace lfdsim {
 namespace {
 

@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-// What becomes of a white panel's light. docs/model.md, "Uniformity and efficiency".
+// What becomes of a white panel's light. docs/measures.md, "Uniformity and efficiency".
 namespace lfdsim {
 namespace {
 

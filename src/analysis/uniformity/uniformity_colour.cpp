@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-// docs/model.md, "Uniformity and efficiency".
+// docs/measures.md, "Uniformity and efficiency".
 namespace lfdsim {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-// docs/model.md, "Viewing zone".
+// docs/measures.md, "Viewing zone".
 namespace lfdsim {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/model.md, "Viewing zone".
+// docs/measures.md, "Viewing zone".
 namespace lfdsim {
 namespace {
 

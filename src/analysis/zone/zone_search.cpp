@@ -2,7 +2,7 @@
 
 #include "geometry/screen.h"
 
-// docs/model.md, "Viewing zone".
+// docs/measures.md, "Viewing zone".
 namespace lfdsim {
 namespace {
 

@@ -1,4 +1,4 @@
-// Lays a photograph of a screen over a simulated view of it: docs/model.md, "Overlay". Floor 0.
+// Lays a photograph of a screen over a simulated view of it: docs/measures.md, "Overlay". Floor 0.
 #pragma once
 #include "base/job.h"
 #include "display/display.h"
