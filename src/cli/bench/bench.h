@@ -3,6 +3,7 @@
 #include "cli/output/output.h"
 #include "cli/program/progress.h"
 #include "display/display.h"
+#include "engine/render.h"
 
 #include <functional>
 #include <string>
@@ -33,6 +34,15 @@ struct Case {
     std::string name;
     std::function<Run(Job&)> run;  // a job that is cancelled makes its result void
 };
+
+/// A case that renders the display with a panel, a Texels or SummedPanel that outlives it.
+template <class Panel>
+Case rendering(const std::string& name, const Display& display, const Panel& panel, const RenderOptions& options) {
+    return {name, [&panel, options, display, geometry = resolve(display)](Job& job) {
+                const Rendering r = render(display, geometry, panel, options, job);
+                return Run{r.seconds, double(r.samples)};
+            }};
+}
 
 struct Measured {
     std::string name;
@@ -76,6 +86,13 @@ class Bench {
 
 /// Seconds as JSON: median, least, most, how many runs, and the median of processor seconds.
 Json spread(const Measured&);
+
+/// A case over the same without what it shows: seconds of both and their ratio, as JSON and as text.
+struct Over {
+    Json json;
+    std::string text;
+};
+Over over(const Measured& with, const Measured& plain);
 
 void bench_rendering(Bench&);
 void bench_lenses(Bench&);

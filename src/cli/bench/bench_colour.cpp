@@ -85,25 +85,15 @@ void compare(const Pair& pair, const Duty& estimator, Bench& bench) {
     for (const Display& d : displays) panel.planes(panel_reading(d));  // made before anything is timed
     std::vector<Case> cases;
     for (const Display& d : displays)
-        cases.push_back(
-            {pair.name, [&, geometry = resolve(d)](Job& job) {
-                 const Rendering r = render(d, geometry, panel, {bench.settings.threads, bench.settings.kernel, crop}, job);
-                 return Run{r.seconds, double(r.samples)};
-             }});
+        cases.push_back(rendering(pair.name, d, panel, {bench.settings.threads, bench.settings.kernel, crop}));
     const std::vector<Measured> times = bench.measure("colour", cases);
     if (times.size() < 2) return;  // after a signal
-    const double ratio = times[1].median() / times[0].median(),
-                 processor_ratio = times[1].processor_median() / times[0].processor_median();
-    bench.row("colour",
-              {{"name", pair.name},
-               {"estimator", estimator.name},
-               {"seconds", spread(times[1])},
-               {"plain_seconds", spread(times[0])},
-               {"ratio", ratio},
-               {"processor_ratio", processor_ratio},
-               {"error", {{"of", pair.error_name}, {"value", error}}}},
-              fmt::format("{:<34} {:<9} {:8.4f} s over {:8.4f} s: {:6.3f}, by processor time {:6.3f}; {} {:.2g}", pair.name,
-                          estimator.name, times[1].median(), times[0].median(), ratio, processor_ratio, pair.error_name, error));
+    const auto [values, text] = over(times[1], times[0]);
+    Json row{{"name", pair.name}, {"estimator", estimator.name}};
+    row.update(values);
+    row["error"] = {{"of", pair.error_name}, {"value", error}};
+    bench.row("colour", std::move(row),
+              fmt::format("{:<34} {:<9} {}; {} {:.2g}", pair.name, estimator.name, text, pair.error_name, error));
 }
 
 }  // namespace

@@ -45,12 +45,7 @@ void compare(const Duty& array, const Texels& panel, Bench& bench) {
     array.change(plain);
     const RenderOptions options{bench.settings.threads, bench.settings.kernel, band(plain, bench.settings.quick ? 16 : 108)};
     std::vector<Case> cases;
-    const auto add = [&](const char* name, const Display& d) {
-        cases.push_back({name, [&panel, options, d, geometry = resolve(d)](Job& job) {
-                             const Rendering r = render(d, geometry, panel, options, job);
-                             return Run{r.seconds, double(r.samples)};
-                         }});
-    };
+    const auto add = [&](const char* name, const Display& d) { cases.push_back(rendering(name, d, panel, options)); };
     add("none", plain);
     for (const Duty& kind : errors) {
         Display wrong = plain;
@@ -67,18 +62,12 @@ void compare(const Duty& array, const Texels& panel, Bench& bench) {
 
     const std::vector<Measured> times = bench.measure("errors", cases);
     for (std::size_t k = 1; k < times.size(); ++k) {
-        const double ratio = times[k].median() / times[0].median(),
-                     processor_ratio = times[k].processor_median() / times[0].processor_median();
-        bench.row("errors",
-                  {{"name", array.name},
-                   {"errors", times[k].name},
-                   {"seconds", spread(times[k])},
-                   {"plain_seconds", spread(times[0])},
-                   {"ratio", ratio},
-                   {"processor_ratio", processor_ratio},
-                   {"greatest_difference_of_none", difference}},
-                  fmt::format("{:<20} {:<38} {:8.4f} s over {:8.4f} s: {:6.3f}, by processor time {:6.3f}; none: differs by {:.1g}",
-                              array.name, times[k].name, times[k].median(), times[0].median(), ratio, processor_ratio, difference));
+        const auto [values, text] = over(times[k], times[0]);
+        Json row{{"name", array.name}, {"errors", times[k].name}};
+        row.update(values);
+        row["greatest_difference_of_none"] = difference;
+        bench.row("errors", std::move(row),
+                  fmt::format("{:<20} {:<38} {}; none: differs by {:.1g}", array.name, times[k].name, text, difference));
     }
 }
 

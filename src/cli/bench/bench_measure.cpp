@@ -42,6 +42,13 @@ Json spread(const Measured& m) {
             {"processor_median", m.processor_median()}};
 }
 
+Over over(const Measured& with, const Measured& plain) {
+    const double ratio = with.median() / plain.median(), processor_ratio = with.processor_median() / plain.processor_median();
+    return {{{"seconds", spread(with)}, {"plain_seconds", spread(plain)}, {"ratio", ratio}, {"processor_ratio", processor_ratio}},
+            fmt::format("{:8.4f} s over {:8.4f} s: {:6.3f}, by processor time {:6.3f}", with.median(), plain.median(), ratio,
+                        processor_ratio)};
+}
+
 Bench::Bench(const BenchSettings& s, Progress& progress) : settings(s), progress_(progress) {}
 
 std::vector<Measured> Bench::measure(std::string_view stage, const std::vector<Case>& cases) {

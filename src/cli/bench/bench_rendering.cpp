@@ -16,10 +16,7 @@ class Renders {
     explicit Renders(Bench& bench) : bench_(bench), panel_(noise_panel(bench_display())) {}
 
     void add(const std::string& name, const Display& d, RenderOptions options) {
-        cases_.push_back({name, [this, d, geometry = resolve(d), options](Job& job) {
-                              const Rendering r = render(d, geometry, panel_, options, job);
-                              return Run{r.seconds, double(r.samples)};
-                          }});
+        cases_.push_back(rendering(name, d, panel_, options));
     }
     void add(std::span<const Duty> changes, int rows) {
         for (const Duty& duty : changes) {

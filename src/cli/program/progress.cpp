@@ -1,7 +1,5 @@
 #include "cli/program/progress.h"
 
-#include "cli/program/arguments.h"
-
 #include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
@@ -11,8 +9,6 @@
 namespace lfdsim::cli {
 namespace {
 
-const std::vector<std::string> styles{"auto", "bar", "lines", "json", "none"};
-
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
 // One write, so that lines of several programs do not mix. Nothing can be done about a closed standard error.
@@ -20,7 +16,7 @@ void to_stderr(const std::string& text) { [[maybe_unused]] const ssize_t written
 
 }  // namespace
 
-Progress::Progress(const std::string& style) : style_(word("--progress", style, styles)) {
+Progress::Progress(const std::string& style) : style_(style) {
     if (style_ == "auto") style_ = isatty(STDERR_FILENO) ? "bar" : "lines";
 }
 

@@ -14,7 +14,7 @@ namespace lfdsim::cli {
 /// user asks for it. One at a time.
 class Progress : public Job {
   public:
-    /// `style`: auto | bar | lines | json | none. auto: a bar on a terminal, else lines. Throws InputError for another.
+    /// `style`: auto | bar | lines | json | none. auto: a bar on a terminal, else lines.
     explicit Progress(const std::string& style);
     ~Progress() override;
 
