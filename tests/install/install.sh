@@ -10,6 +10,7 @@ cmake --install "$1" --prefix "$work/prefix" >/dev/null
 cmake -S "$here" -B "$work/build" -G Ninja -D CMAKE_CXX_COMPILER="$2" -D CMAKE_PREFIX_PATH="$work/prefix"
 cmake --build "$work/build"
 "$work/build/consumer"
+"$work/build/minimal" "$work/prefix/share/lfdsim/displays/hexagon.toml" "$work/view.png" | grep -q "SSIM"
 
 # The installed program finds its model reader, and its displays are where the README says.
 "$work/prefix/bin/lfdsim" eia "$work/prefix/share/lfdsim/displays/desktop-ideal.toml" --set 'panel.pixels=[64,36]' \
