@@ -21,7 +21,6 @@
 #include "report/pages/side_by_side.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -296,10 +295,7 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
     std::string missing = interrupted ? "The run was interrupted; the same command with --resume continues it." : "";
     for (const Problem& p : problems) missing += fmt::format("{}{}: {}.", missing.empty() ? "" : " ", p.where, p.what);
     write_text(place / ResultFolder::report_name, side_by_side_html(measured, all, command_line(), missing));
-    if (interrupted) {
-        spdlog::warn("interrupted; {} holds what is finished; the same command with --resume continues it", args.output.text());
-        throw Interrupted{};
-    }
+    if (interrupted) end_interrupted(args.output.text(), "what is finished");
     if (!problems.empty()) throw InputError(problems);
     if (args.work.json()) {
         all["results"] = found;
@@ -313,11 +309,8 @@ void run(const AnalyzeArguments& args) {
     const Request request = request_of(args);
     if (request.displays.size() > 1) return side_by_side(args, request);
     const Outcome outcome = measure(args, request, request.displays.front(), args.output.text());
-    if (outcome.interrupted) {
-        spdlog::warn("interrupted; {} holds {} of {} measures; the same command with --resume continues it", args.output.text(),
-                     outcome.found.size(), request.wanted.size());
-        throw Interrupted{};
-    }
+    if (outcome.interrupted)
+        end_interrupted(args.output.text(), fmt::format("{} of {} measures", outcome.found.size(), request.wanted.size()));
     if (!outcome.problems.empty()) throw InputError(outcome.problems);
     if (args.work.json()) return print_json(request.wanted.size() == 1 ? outcome.found.front() : outcome.found);
     std::string text;

@@ -148,12 +148,9 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     if (above_target > 0)
         spdlog::warn("{} did not reach the target error with the maximum number of samples", counted(above_target, "pixel"));
     if (w.rendering.target_error) made.more["pixels_above_target"] = above_target;
-    if (made.rendered < std::int64_t(left.size())) {
-        spdlog::warn("interrupted; {} holds {} of {}{}", w.output.path(), made.frames - std::int64_t(left.size()) + made.rendered,
-                     counted(made.frames, "frame"),
-                     keeps_metadata(w.options.file(w.output, 0, 1)) ? "; the same command with --resume continues it" : "");
-        throw Interrupted{};
-    }
+    if (const std::int64_t missing = std::int64_t(left.size()) - made.rendered; missing > 0)
+        end_interrupted(w.output.path(), fmt::format("{} of {}", made.frames - missing, counted(made.frames, "frame")),
+                        keeps_metadata(w.options.file(w.output, 0, 1)));
     return made;
 }
 

@@ -110,4 +110,10 @@ void end_interrupted(const std::string& saved) {
     throw Interrupted{};
 }
 
+void end_interrupted(const std::filesystem::path& folder, const std::string& finished, bool resumable) {
+    spdlog::warn("interrupted; {} holds {}{}", folder.string(), finished,
+                 resumable ? "; the same command with --resume continues it" : "");
+    throw Interrupted{};
+}
+
 }  // namespace lfdsim::cli

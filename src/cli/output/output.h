@@ -68,5 +68,7 @@ class OutputOptions {
 
 /// Says that the work was stopped: what has been saved, or nothing. Throws Interrupted.
 [[noreturn]] void end_interrupted(const std::string& saved);
+/// The same of a folder that holds `finished`, "3 of 9 views", and whether a run with --resume goes on there.
+[[noreturn]] void end_interrupted(const std::filesystem::path& folder, const std::string& finished, bool resumable = true);
 
 }  // namespace lfdsim::cli

@@ -9,7 +9,6 @@
 #include "image/formats/file.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <algorithm>
 
 namespace lfdsim::cli {
@@ -69,9 +68,8 @@ void ViewsFolder::check() const {
 void ViewsFolder::stop() const {
     const std::int64_t made = pictures_.count_finished();
     if (made == 0) end_interrupted("");
-    spdlog::warn("interrupted; {} holds {} of {}{}", pictures_.folder.string(), made, counted(pictures_.count, "picture"),
-                 keeps_metadata(pictures_.file(0)) ? "; the same command with --resume continues it" : "");
-    throw Interrupted{};
+    end_interrupted(pictures_.folder, fmt::format("{} of {}", made, counted(pictures_.count, "picture")),
+                    keeps_metadata(pictures_.file(0)));
 }
 
 }  // namespace lfdsim::cli
