@@ -37,7 +37,7 @@ inline Json axes_json(const LensArray& array, double along_x, double along_y) {
     return differs_by_axis(array) ? numbers_json({along_x, along_y}) : number_json(along_x);
 }
 
-/// A number, or an interval of two, as it is measured or by theory.
+/// The value of a figure is a number or an interval of two, measured or by theory, with its errors.
 struct FigureValue {
     std::vector<double> numbers;      // empty: there is none. NaN: it is undefined or was not found, and `missing` says why
     std::vector<double> errors = {};  // of each; empty: none is stated
@@ -57,7 +57,7 @@ struct FigureValue {
 /// Writes object[name] and, of a value with errors, object[name + "_error"].
 void write_value(Json& object, const std::string& name, const FigureValue&);
 
-/// What the report's table says of a figure.
+/// A line of the report's table says what a figure is, in which unit, and what theory has for it.
 struct FigureLine {
     std::string label, unit = {};
     FigureValue theory = {};
@@ -84,7 +84,7 @@ struct DataTable {
     std::vector<Column> columns;
 
     static DataTable of_rows(std::string name, const std::vector<std::string>& columns);
-    /// One value for each column.
+    /// Adds one value to each column.
     void add_row(std::span<const double>);
     void add_row(std::initializer_list<double> row) { add_row(std::span(row.begin(), row.size())); }
 };
@@ -153,11 +153,11 @@ struct Result {
     Json figures = Json::object();
     Json notes = Json::object();  // why a figure is null: {"PATH.OF.NAME": "..."}
     void note(const std::string& path, const std::string& why) { notes[path] = why; }
-    /// A figure for scripts under a path as "screen.uniformity_percent", with a note where it is missing; and its line of the
-    /// table.
+    /// Adds a figure for scripts under a path such as "screen.uniformity_percent", with a note where it is missing; and its line
+    /// of the table.
     void add(const std::string& path, const FigureValue&);
     void add(const std::string& path, const FigureValue&, const FigureLine&);
-    /// A line alone, of a figure that scripts find in other units or at another place.
+    /// Adds a line alone, of a figure that scripts find in other units or at another place.
     void add_line(const FigureValue&, const FigureLine&);
     void add(Curves);
     std::vector<Finding> findings;

@@ -8,32 +8,32 @@
 
 namespace lfdsim {
 
-/// Where theory puts the edge on the arc along one axis, degrees.
+/// Returns where theory puts the edge on the arc along one axis, degrees.
 double theory_edge_deg(const Subject&, int axis);
 
-/// How far on either side of its edge the field of view fades, degrees: by the lens aperture and the diffuser, and where images are
-/// made for another distance by the lenses across.
+/// Returns over how many degrees on either side of its edge the field of view fades: by the lens aperture and the diffuser, and
+/// where images are made for another distance by the lenses across.
 double fades_over_deg(const Subject&, int axis);
 
-/// As fov_depth_mm, but no eye on its way stands in the scene or nearer to it than it is deep.
+/// Returns fov_depth_mm(), or a lesser depth such that no eye on its way stands in the scene or nearer to it than it is deep.
 double fov_scene_depth_mm(const Subject&, const std::vector<double>& angles_deg);
 
-/// What all views share: the scene, its elemental images, the white field.
+/// All views share the scene, its elemental images, the white field.
 struct ShownEdge {
     ContentScene scene;
     const SummedPanel& panel;
     double white;
 };
 
-/// Over the angles along one axis: SSIM of screen and content, and the photograph's share in the view.
+/// AngleCurves are, over the angles along one axis, SSIM of screen and content, and the photograph's share in the view.
 struct AngleCurves {
     Curve screen, content, share;
 };
 
-/// Along one axis. Throws Stopped.
+/// Compares views along one axis with photographs. Throws Stopped.
 AngleCurves angle_curves(const Subject&, const ShownEdge&, int axis, const std::vector<double>& angles_deg, Job&);
 
-/// The edges that the geometry of rays gives along each imaging axis: on the arc, degrees, as light leaves the lenses and with the
+/// The geometry of rays gives these edges along each imaging axis: on the arc, degrees, as light leaves the lenses and with the
 /// diffuser; and in the plane at the eye's distance, mm.
 struct GeometricFov {
     std::array<OwnRange, 2> lenses, diffused, eyebox;

@@ -27,7 +27,7 @@ struct LensField {
 
 std::vector<LensField> trace_fields(const Subject&, const LensTrace&);
 
-/// Sizes at a depth, mm: RMS radius and full widths, these also with the diffuser. NaN: there is none.
+/// A spot has these sizes at a depth, mm: RMS radius and full widths, these also with the diffuser. NaN: there is none.
 struct Spot {
     double rms, meridional, sagittal, meridional_diffused, sagittal_diffused;
 };

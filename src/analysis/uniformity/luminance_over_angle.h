@@ -9,17 +9,18 @@
 
 namespace lfdsim {
 
-/// Viewing angles from -80 to 80 degrees.
+/// Returns viewing angles from -80 to 80 degrees.
 std::vector<double> luminance_angles_deg();
 
-/// The mean luminance of the screen for eyes at the viewing distance, along one axis.
+/// Eyes at the viewing distance see this mean luminance of a white screen.
 class LuminanceOverAngle {
   public:
     LuminanceOverAngle(const Subject&, const EyeRays&, double distance_mm);
-    /// NaN where eyes cannot be, or see no panel through the array. Each line's mirror images in both planes are traced too.
+    /// The luminance is NaN where eyes cannot be, or see no panel through the array. Each line's mirror images in both planes are
+    /// traced too.
     Sums at(int axis, double angle_deg) const;
-    /// From the middle to one side (-1 or 1), where the luminance first falls below half of that on axis; NaN: nowhere. `light` is
-    /// that at `angles`.
+    /// Finds where, from the middle to one side (-1 or 1), the luminance first falls below half of that on axis; NaN: nowhere.
+    /// `light` is that at `angles`.
     Estimate half_deg(int axis, const std::vector<double>& angles, const std::vector<double>& light, int side) const;
 
   private:

@@ -101,7 +101,6 @@ SightShares ZoneSearch::at(const Vec3d& eye, int rays, std::uint32_t set) const 
     return sight_shares(rays_, pickup_, subject_.display(), eye, std::span(choices_[set]).first(std::size_t(rays * more_)));
 }
 
-/// Along the eyes that `eye_at` gives.
 Zone ZoneSearch::along(std::vector<double> places, const std::function<Vec3d(double)>& eye_at) {
     Zone zone{std::move(places), {}, {}};
     zone.shares.resize(zone.places.size());

@@ -42,7 +42,7 @@ ParaxialZone paraxial_zone(const Subject&, std::size_t axis);
 
 inline constexpr std::array zone_thresholds{0.01, 0.5};  // of the share of wrong rays
 
-/// What eyes at some places see, in mm, and from where to where no more is wrong than each threshold.
+/// A zone has what eyes at some places, mm, see, and from where to where no more is wrong than each threshold.
 struct Zone {
     std::vector<double> places;
     std::vector<SightShares> shares;
@@ -54,22 +54,23 @@ struct Zone {
     }
 };
 
-/// Eyes about the zone. Throws Stopped.
+/// ZoneSearch looks at the screen from eyes about the zone. Throws Stopped.
 class ZoneSearch {
   public:
     static constexpr int map_side = 61;
 
     ZoneSearch(Subject&, Job&, std::int64_t steps);
-    /// Along x (axis 0) or y (1) in the plane at the viewing distance, as far as `half_mm`.
+    /// Looks from eyes along x (axis 0) or y (1) in the plane at the viewing distance, as far as `half_mm`.
     Zone sideways(std::size_t axis, double half_mm);
-    /// Along the axis: distances from the panel, the farthest first.
+    /// Looks from eyes on the axis: places are distances from the panel, the farthest first.
     Zone on_axis(const ParaxialZone& theory);
-    /// Over that plane: map_side x map_side places, row 0 at the top.
+    /// Looks from all over that plane: map_side x map_side places, row 0 at the top.
     std::vector<SightShares> map(const std::array<double, 2>& half_mm);
     static double map_place(int k, double half_mm) { return half_mm * ((2 * k + 1.) / map_side - 1); }
 
   private:
     SightShares at(const Vec3d& eye, int rays, std::uint32_t set = 0) const;
+    /// Looks from the eyes that `eye_at` gives for each place, and seeks the limits there.
     Zone along(std::vector<double> places, const std::function<Vec3d(double)>& eye_at);
 
     const Subject& subject_;
