@@ -3,7 +3,9 @@
 namespace lfdsim {
 
 void write_value(Json& object, const std::string& name, const FigureValue& value) {
-    const auto json = [](const std::vector<double>& x) { return x.size() == 1 ? number_json(x.front()) : numbers_json(x); };
+    const auto json = [](const std::vector<double>& x) {
+        return x.empty() ? Json() : x.size() == 1 ? number_json(x.front()) : numbers_json(x);
+    };
     object[name] = json(value.numbers);
     if (!value.errors.empty()) object[name + "_error"] = json(value.errors);
 }

@@ -44,6 +44,12 @@ struct FigureValue {
     std::string missing = {};
 
     FigureValue() = default;
+    /// Makes a value that scripts read as null.
+    static FigureValue none(std::string why) {
+        FigureValue value;
+        value.missing = std::move(why);
+        return value;
+    }
     FigureValue(double without_error, std::string why_missing = {}) : numbers{without_error}, missing(std::move(why_missing)) {}
     FigureValue(std::vector<double> all, std::vector<double> error = {}, std::string why_missing = {})
         : numbers(std::move(all)), errors(std::move(error)), missing(std::move(why_missing)) {}

@@ -135,10 +135,8 @@ void add_likeness(Subject& s, Result& result, Plot& plot, const DepthRun& run, J
             "far "
             "behind; --depths-mm chooses others",
             eye_distance_mm(s.display()));
-        for (const char* name : {"ssim_rule_mm", "gradient_rule_mm", "most_alike_mm", "by_likeness"}) {
-            result.figures[name] = Json();
-            result.note(name, why);
-        }
+        for (const char* name : {"ssim_rule_mm", "gradient_rule_mm", "most_alike_mm", "by_likeness"})
+            result.add(name, FigureValue::none(why));
         result.remarks.push_back("Likeness was not measured: " + why + ".");
         return;
     }

@@ -306,10 +306,7 @@ Result measure_mtf(Subject& s, Job& job) {
         result.figures["measurements"].push_back(to_json(all[n], r));
         add_notes(all[n], r, n, result);
     }
-    if (is_strips(s.display().array)) {
-        result.figures["along"] = nullptr;
-        result.note("along", across_alone);
-    }
+    if (is_strips(s.display().array)) result.add("along", FigureValue::none(across_alone));
     report(s, depths, angles, all, result);
     show_edge_fringes(s, plotted_depth_mm(s, depths), angles, job, result);
     return result;

@@ -102,13 +102,16 @@ class Teller {
                 json[side + "_error"] = span.empty() ? Json() : numbers_json(value.errors);
                 if (!value.missing.empty()) result_.note(key + "." + side, value.missing);
             }
-            json["theory_" + side] = of_theory.empty() ? Json() : numbers_json({of_theory.low, of_theory.high});
-            if (of_theory.empty()) result_.note(key + ".theory_" + side, "no depth on this side of the lenses is sharp by theory");
+            const FigureValue by_theory =
+                of_theory.empty() ? FigureValue() : FigureValue(std::vector{of_theory.low, of_theory.high});
+            result_.add(key + ".theory_" + side, of_theory.empty()
+                                                     ? FigureValue::none("no depth on this side of the lenses is sharp by theory")
+                                                     : by_theory);
             if (found || !of_theory.empty())
                 result_.add_line(
                     value, {.label = fmt::format("Depth of field {}, {} the lenses", what, in_front ? "in front of" : "behind"),
                             .unit = "mm",
-                            .theory = of_theory.empty() ? FigureValue() : std::vector{of_theory.low, of_theory.high},
+                            .theory = by_theory,
                             .remark = remark});
         }
     }
@@ -119,14 +122,13 @@ class Teller {
         const SharpDepths depths = where_sharp(fan.all, pixel_slope_, airy_slope);
         Measured found;
         if (std::isnan(depths.near_per_mm)) {
-            result_.figures[diopters] = Json();
             found.missing = fan.all.empty()
                                 ? "no light of the panel's point on the axis gets through the lens"
                                 : fmt::format(
                                       "the spot is nowhere as narrow as a panel pixel's image; it comes nearest to that {} mm "
                                       "in front of the lenses, where it is {:.4g} pixel images wide",
                                       text_mm(depths.best_per_mm), depths.least_width / pixel_slope_);
-            result_.note(diopters, found.missing);
+            result_.add(diopters, FigureValue::none(found.missing));
             found.range = found.least = found.most = range_of_inverse(geometry_, nan, nan, eye_mm_);
         } else {
             const std::array<double, 2> error = errors(depths, fan, pixel_slope_, airy_slope);

@@ -38,10 +38,7 @@ void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const st
     Plot plot{"zone", missing, "viewer's place, degrees", "share of rays", {}};
     DataTable table{"zone", {}};
     const auto degrees = [&](double mm) { return std::atan(mm / eye) / degree; };
-    if (is_strips(s.display().array)) {
-        result.figures["vertical"] = Json();
-        result.note("vertical", "strips show the same from above and from below");
-    }
+    if (is_strips(s.display().array)) result.add("vertical", FigureValue::none("strips show the same from above and from below"));
     for (std::size_t axis = 0; axis < std::size_t(imaging_axes(s.display().array)); ++axis) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
         const Zone zone = search.sideways(axis, half[axis]);
