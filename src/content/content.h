@@ -56,7 +56,8 @@ std::string model_of(const Display&);
 /// format or no triangles, or crashes or exhausts the reader; std::runtime_error if the reader program lfdsim-model-reader is
 /// missing.
 std::shared_ptr<const Model> load_model(const std::filesystem::path&, const LoadOptions& = {});
-/// A picture on a rectangle of height 1 about the origin, facing +z, by the same rules: PNG, JPEG, BMP, TGA, GIF (its first frame).
+/// A picture on a rectangle of height 1 about the origin, facing +z, by the same rules: PNG, JPEG, BMP, TGA, GIF (its first
+/// frame).
 std::shared_ptr<const Model> load_picture(const std::filesystem::path&, const LoadOptions& = {});
 ModelInfo info(const Model&);
 
@@ -64,21 +65,22 @@ ModelInfo info(const Model&);
 using ContentParts = std::vector<std::shared_ptr<const Model>>;
 ContentParts load_parts(const std::vector<ContentFile>&, const LoadOptions& = {});
 
-/// What a display shows, posed in front of the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share both.
+/// What a display shows, posed in front of the display (docs/model.md, "Pose"), with its ray-tracing structure. Copies share
+/// both.
 class ContentScene {
   public:
     /// Throws InputError for a model without height (lying flat) or millions of times wider than high. `parts`: those of the
     /// display's content_files().
     ContentScene(const ContentParts&, const Display&, const Geometry&);
-    /// Of a display without objects.
+    /// The scene of a display without objects.
     ContentScene(std::shared_ptr<const Model> model, const Display& d, const Geometry& g)
         : ContentScene(ContentParts{std::move(model)}, d, g) {}
 
-    /// The same at another depth (content.depth_mm) of the same display: nothing is read, posed or built again, and pictures
+    /// The scene at another depth (content.depth_mm) of the same display: nothing is read, posed or built again, and pictures
     /// have the bits of a scene made there. Throws InputError for a depth that a display could not have.
     ContentScene at_depth(double depth_mm) const;
 
-    /// The same in front of another display, resolved, with the same content at perhaps another depth.
+    /// The scene in front of another display, resolved, with the same content at perhaps another depth.
     ContentScene before(const Geometry&) const;
 
     struct Impl;
@@ -104,16 +106,17 @@ struct Picture {
     double seconds = 0;
 };
 
-/// Elemental images by the display's pick-up, one ray (integrated: content.pickup_rays) for each panel pixel that a lens owns; the
-/// panel's size. threads 0: all. The same bits for any number of threads. Throws InputError for a bad thread count.
+/// Elemental images by the display's pick-up, one ray (integrated: content.pickup_rays) for each panel pixel that a lens owns;
+/// the panel's size. threads 0: all. The same bits for any number of threads. Throws InputError for a bad thread count.
 Picture elemental_images(const Display&, const Geometry&, const ContentScene&, int threads, Job&);
 
-/// The scene seen directly by the display's camera: one ray through each pixel's centre, or, with a pupil or a pixel filter, the
-/// display's samples (100 by default) spread over both as in a rendering, whatever its estimator. A crop has the full frame's
-/// pixels, bit for bit. Throws InputError for a crop outside the frame or a bad thread count.
+/// The scene seen directly by the display's camera: one ray through each pixel's centre, or, with a pupil or a pixel filter,
+/// the display's samples (100 by default) spread over both as in a rendering, whatever its estimator. A crop has the full
+/// frame's pixels, bit for bit. Throws InputError for a crop outside the frame or a bad thread count.
 Picture reference_photograph(const Display&, const Geometry&, const ContentScene&, int threads, std::optional<Rect> crop, Job&);
 
-/// Test patterns of the panel's size: "checkerboard", "white", "view" (one view white), "edge" (slanted edge), "address" (ramp).
+/// Test patterns of the panel's size: "checkerboard", "white", "view" (one view white), "edge" (slanted edge), "address"
+/// (ramp).
 std::vector<std::string> pattern_names();
 struct PatternOptions {
     int cell_pixels = 11;           // checkerboard

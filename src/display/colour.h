@@ -15,8 +15,9 @@ struct Node {
     double wavelength_nm, weight;
 };
 
-/// Those of a channel (0 red, 1 green, 2 blue), in ascending order; the weights' sum is 1. With K = render.wavelength_samples > 1
-/// they are the nodes of Gauss-Hermite quadrature over a normal distribution of the primary's width.
+/// The wavelengths of a channel (0 red, 1 green, 2 blue), in ascending order; the weights' sum is 1. With K =
+/// render.wavelength_samples > 1 they are the nodes of Gauss-Hermite quadrature over a normal distribution of the primary's
+/// width.
 std::vector<Node> wavelengths_of(const Display&, int channel);
 
 /// Index of a medium given by either; of neither: air's.
@@ -36,8 +37,8 @@ std::vector<Medium> media_of(const Display&);
 /// Whether the path of light depends on its wavelength: an index differs between those that are used.
 bool disperses(const Display&);
 
-/// What light of one wavelength meets of a valid display, as one that does not disperse: each glass has its index there, and lenses
-/// stand where green has put them.
+/// What light of one wavelength meets of a valid display, as one that does not disperse: each glass has its index there, and
+/// lenses stand where green has put them.
 Display at_wavelength(Display, double wavelength_nm);
 
 }  // namespace lfdsim

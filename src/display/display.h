@@ -130,7 +130,7 @@ struct LensArray {
     double rotation_deg = 0;          // counter-clockwise as the viewer sees it, about the array's centre, before the offset
     std::optional<double> slant_deg;  // of strips' axes from the vertical, their upper ends to the viewer's right
 
-    /// Of the array's frame against the display's, counter-clockwise.
+    /// The array's frame is turned by this against the display's, counter-clockwise.
     double turn_deg() const { return slant_deg ? -*slant_deg : rotation_deg; }
     bool operator==(const LensArray&) const = default;
 };
@@ -155,7 +155,7 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// Of everything that is shown.
+/// The light in which content is shaded.
 struct Light {
     Vec3d direction{0.3, 0.5, 0.81};  // towards it; only the direction counts
     double strength = 0.8;            // added to the ambient term where a surface faces it

@@ -8,9 +8,9 @@ inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8, ma
 // Of a panel's cell; a rectangle that hangs over the border of its cell is stored in parts.
 inline constexpr int max_subpixels = 32, max_subpixel_parts = 64;
 
-/// Of render.wavelength_samples, and of the files that glass_catalogues may name.
+/// The most of render.wavelength_samples, and of the files that glass_catalogues may name.
 inline constexpr decltype(sizeof 0) max_wavelength_samples = 32, max_catalogues = 8;
-/// Of content.object.
+/// The most objects of content.object.
 inline constexpr decltype(sizeof 0) max_objects = 64;
 
 enum class Encoding { srgb, linear };  // of the panel image's code values

@@ -40,8 +40,8 @@ using ValuesOf =
                  Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
                  Of<ContentSampling>, Of<MadeFor>, Of<PickupKind>, Of<Shading>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
 
-/// What a key fills. Only Display, Panel, SurfaceLens and Content contain tables: one that is always there, one that may be absent,
-/// or a list; the keys of a kind stand beside its word.
+/// What a key fills. Only Display, Panel, SurfaceLens and Content contain tables: one that is always there, one that may be
+/// absent, or a list; the keys of a kind stand beside its word.
 template <class T>
 struct MemberOf {
     template <class V>
@@ -71,8 +71,8 @@ struct MemberOf<Content> {
                               std::vector<SceneObject> Content::*>;
 };
 
-/// What a text in a description is. A text that nothing is said of counts as a file's name, which visitors of the viewer may not
-/// set.
+/// What a text in a description is. A text that nothing is said of counts as a file's name, which visitors of the viewer may
+/// not set.
 enum class TextOf { file, label };
 
 template <class T>
@@ -148,7 +148,8 @@ struct Part<std::variant<Kinds...>> {
 template <class Field>
 inline constexpr PartKind part_kind = Part<std::remove_cvref_t<Field>>::is;
 
-/// Structs that have tables or a kind within them. All others have values only; to know that saves half a minute of compilation.
+/// Structs that have tables or a kind within them. All others have values only; to know that saves half a minute of
+/// compilation.
 template <class T>
 inline constexpr bool has_parts = is_one_of<T, Display, Panel, Lens, SurfaceLens, Content>;
 
@@ -174,12 +175,12 @@ using PointerToConst = const V*;
 using ValueRef = ValuesOf<PointerTo>;
 using ConstValueRef = ValuesOf<PointerToConst>;
 
-/// Calls visit for each value of a display, in the order of a description, with its path ("lens.surface.0.conic"), its key, and the
-/// value that a fresh struct has. Tables and fields that a display lacks are not visited. A kind is visited as the value of its
-/// word, then its own keys.
+/// Calls visit for each value of a display, in the order of a description, with its path ("lens.surface.0.conic"), its key, and
+/// the value that a fresh struct has. Tables and fields that a display lacks are not visited. A kind is visited as the value of
+/// its word, then its own keys.
 void visit_all(const Display&,
                const std::function<void(const std::string& path, const KeyInfo&, ConstValueRef, ConstValueRef fresh)>& visit);
-/// The same; `visit` may change values, except a kind, whose keys follow.
+/// Visits all keys; `visit` may change values, except a kind, whose keys follow.
 void visit_all(Display&, const std::function<void(const std::string& path, const KeyInfo&, ValueRef)>& visit);
 
 /// A table that a description may have, and its keys that are values, each with that of a fresh struct.
@@ -203,8 +204,8 @@ const FormatTable::Value* key_at(std::string_view path);
 /// "glass_catalogues.1").
 void visit_files(Display&, const std::function<void(const std::string& path, std::string& file)>& visit);
 
-/// Whether what is set at a dotted path, in whatever form, could change which files a description names: at a key that names one,
-/// at a table or list that has such a key, or at an element of one.
+/// Whether what is set at a dotted path, in whatever form, could change which files a description names: at a key that names
+/// one, at a table or list that has such a key, or at an element of one.
 bool decides_a_file(std::string_view path);
 
 /// Words of an enumeration in the order of its values, and of kinds.

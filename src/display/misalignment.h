@@ -8,7 +8,8 @@
 
 namespace lfdsim {
 
-/// Of one lens, in the array's frame: its body is turned about its viewer-side vertex, about x' and then about y', and moved.
+/// The misalignment of one lens, in the array's frame: its body is turned about its viewer-side vertex, about x' and then about
+/// y', and moved.
 struct LensError {
     std::array<double, 2> aside_mm{};  // along x' and y'
     double height_mm = 0;              // towards the viewer

@@ -49,11 +49,11 @@ struct KernelInfo {
 std::vector<KernelInfo> kernels();
 
 /// The picture of a valid display that shows `panel` (of the panel's size). The same input and seed give the same bits with any
-/// number of threads, kernel and crop. Throws InputError for a bad kernel, crop, thread count, target error, number of samples or
-/// panel size.
+/// number of threads, kernel and crop. Throws InputError for a bad kernel, crop, thread count, target error, number of samples
+/// or panel size.
 Rendering render(const Display&, const Geometry&, const Texels& panel, const RenderOptions&, Job&);
 
-/// The same with a prepared panel, for several views of one panel image.
+/// Renders a prepared panel, which serves several views of one panel image.
 Rendering render(const Display&, const Geometry&, const SummedPanel& panel, const RenderOptions&, Job&);
 
 }  // namespace lfdsim

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int bins = 32, places = 32 * bins, harmonics = places / 4;
 
-/// Amplitudes of the waves cos(2 pi k x / p) in the share of a cell's height that is lit at x from the joint between two lenses,
-/// for pupils of that radius, and no more than that part of their cells, in cells `pitch` wide and `other_pitch` high.
+/// Amplitudes of the waves cos(2 pi k x / p) in the share of a cell's height that is lit at x from the joint between two
+/// lenses, for pupils of that radius, and no more than that part of their cells, in cells `pitch` wide and `other_pitch` high.
 std::vector<double> lit_waves(double pitch, double other_pitch, const Pupil& pupil) {
     const double radius = pupil.radius_mm, half = 0.5 * pupil.cells * pitch;
     std::vector<double> amplitudes(harmonics), wave(2 * places);
@@ -116,7 +116,7 @@ class StaggeredLight {
         for (std::size_t k = 0; k < places; ++k) all[k] = 2 * lit_half_[k] * sinc(wave * lit_half_[k]) / lattice_.pitch[1];
         return all;
     }
-    /// Of the wave cos(2 pi m x / px), x from a joint.
+    /// The amplitude of the wave cos(2 pi m x / px), x from a joint.
     double amplitude(int m, const std::vector<double>& chord) const {
         double sum = 0;
         for (std::size_t n = 0; n < places; ++n) sum += chord[n] * wave_[std::size_t(m) * (2 * n + 1) % wave_.size()];

@@ -13,7 +13,8 @@ namespace lfdsim {
 /// How a surface bends rays: as a glass surface of revolution about the lens's axis, or as the plane of an ideal thin lens.
 enum class SurfaceForm { revolution, thin };
 
-/// A surface in place. z is that of its vertex on the axis; the sag s(r) adds to it. A thin lens has no sag, and air on both sides.
+/// A surface in place. z is that of its vertex on the axis; the sag s(r) adds to it. A thin lens has no sag, and air on both
+/// sides.
 struct PlacedSurface {
     double z_mm;
     double curvature_per_mm;
@@ -30,17 +31,17 @@ struct PlacedLayer {
     double thickness_mm, index;
 };
 
-/// A lens's pupil as an eye far away on its axis sees it, by paraxial optics: of the images of all apertures through the surfaces
-/// in front of them, the narrowest. A ray parallel to the axis at the height 1 passes an aperture of radius r at the height h: its
-/// image has the radius r / |h|.
+/// A lens's pupil as an eye far away on its axis sees it, by paraxial optics: of the images of all apertures through the
+/// surfaces in front of them, the narrowest. A ray parallel to the axis at the height 1 passes an aperture of radius r at the
+/// height h: its image has the radius r / |h|.
 struct Pupil {
     double radius_mm;               // of the round one: of surfaces and of the stop
     std::optional<double> inner_z;  // where that image is, from the panel, if it is not of what light meets first
     double cells;                   // the pupil's part of a cell that the lens fills, 1 or less: 1 over the greatest |h|
 };
 
-/// A valid display resolved to lengths on the z axis, with the errors of its array as a whole but for wedge and bow. All z in mm
-/// from the panel.
+/// A valid display resolved to lengths on the z axis, with the errors of its array as a whole but for wedge and bow. All z in
+/// mm from the panel.
 struct Geometry {
     Lattice<double> lattice;              // where the lenses stand
     double turn_deg;                      // of the array's frame against the display's, counter-clockwise to the viewer
@@ -112,10 +113,11 @@ std::vector<Problem> validate(const Display&);
 
 /// Resolves a valid description, in the light of the green channel. Throws InputError with validate()'s problems otherwise.
 Geometry resolve(const Display&);
-/// The geometry for which elemental images are made: that of the display without its errors, but for content.made_for = "built".
+/// The geometry for which elemental images are made: that of the display without its errors, but for content.made_for =
+/// "built".
 Geometry meant_geometry(const Display&, const Geometry& built);
-/// The same things in the same places in light of another wavelength: indices, focal length, principal points, gap and reduced
-/// lengths are those of that light.
+/// Resolves a display in light of another wavelength, its parts at their places for green: indices, focal length, principal
+/// points, gap and reduced lengths are those of that light.
 Geometry resolve(const Display&, double wavelength_nm);
 
 Theory theory(const Display&, const Geometry&);

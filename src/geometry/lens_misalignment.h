@@ -33,8 +33,8 @@ struct LensErrorBounds {
 };
 LensErrorBounds bounds(const LensArray&, const Errors&);
 
-/// Of each lens, row by row from the lower left: what is drawn and what the table gives together. A pure function of seed, lens and
-/// quantity, without library functions, so that all machines draw the same.
+/// The errors of each lens, row by row from the lower left, are what is drawn and what the table gives together. A pure
+/// function of seed, lens and quantity, without library functions, so that all machines draw the same.
 std::vector<LensError> lens_errors(const Display&, const Lattice<double>&);
 
 /// How much a lens stands out by the array's bow: (1 - rho^2) of it, rho its distance from the array's centre over that of the

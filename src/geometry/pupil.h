@@ -9,7 +9,7 @@
 
 namespace lfdsim {
 
-/// Of a lens's surfaces. The stop, if there is one, stands in the plane of a vertex.
+/// Finds the pupil of a lens's surfaces. The stop, if there is one, stands in the plane of a vertex.
 Pupil pupil(const std::vector<PlacedSurface>&, std::optional<double> stop_radius_mm, double stop_z_mm);
 
 /// The width along the array's x' and y' at which light of the panel's point on a lens's axis leaves the plane of the rear

@@ -35,9 +35,9 @@ struct LitPart {
 /// repeats.
 std::vector<LitPart> lit_parts(const Panel&);
 
-/// The same for a panel that ends: beyond its right and lower border nothing shines, also where the border cuts a cell and a
-/// rectangle of a pixel on the panel lies there. What of a part lies beyond is a part of its own, whose plane is black in such
-/// cells.
+/// The subpixels of a panel that ends: beyond its right and lower border nothing shines, also where the border cuts a cell and
+/// a rectangle of a pixel on the panel lies there. What of a part lies beyond is a part of its own, whose plane is black in
+/// such cells.
 std::vector<LitPart> bounded_parts(const Panel&);
 
 /// What counts of red, green and blue in a figure; the sum is 1.
@@ -76,8 +76,8 @@ std::vector<PanelPlane> planes(const Panel&);
 /// Whether every point of a pixel shines in the pixel's own colour.
 bool shines_all_over(const Panel&);
 
-/// How much brighter than the pixel's light a point shines that shines at all in a channel (0, 1, 2), so that white is white in the
-/// mean: the cell's area over that of the channel's subpixels in it.
+/// How much brighter than the pixel's light a point shines that shines at all in a channel (0, 1, 2), so that white is white in
+/// the mean: the cell's area over that of the channel's subpixels in it.
 double gain(const Panel&, int channel);
 
 /// The largest gain.
@@ -91,8 +91,8 @@ struct LitRect {
 };
 std::vector<LitRect> lit_rects(const Panel&, int channel, std::int64_t column, std::int64_t row);
 
-/// The middle of a channel's light of the pixel (column, row), from the pixel's centre: pixels to the right and down. Nothing where
-/// the channel has no subpixel there.
+/// The middle of a channel's light of the pixel (column, row), from the pixel's centre: pixels to the right and down. Nothing
+/// where the channel has no subpixel there.
 std::optional<std::array<double, 2>> centroid(const Panel&, int channel, std::int64_t column, std::int64_t row);
 
 /// For what places of its pixels a display's elemental images are made, as numbers that can be compared: the cell's size, and
@@ -106,8 +106,8 @@ struct SubpixelCell {
 };
 SubpixelCell subpixel_cell(const Panel&);
 
-/// The numbers of two subpixels of a custom layout that overlap, here or in a cell repeated; twice the same one where it overlaps
-/// its own repetition.
+/// The numbers of two subpixels of a custom layout that overlap, here or in a cell repeated; twice the same one where it
+/// overlaps its own repetition.
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel&);
 
 }  // namespace lfdsim

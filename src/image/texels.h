@@ -9,8 +9,8 @@
 
 namespace lfdsim {
 
-/// Linear radiance, 4 x float32 (R, G, B, 0) a pixel: one aligned 16-byte load fetches an exactly decoded panel pixel, whatever the
-/// file's depth. Uses huge pages where the system grants them, since the renderer's access is random.
+/// Linear radiance, 4 x float32 (R, G, B, 0) a pixel: one aligned 16-byte load fetches an exactly decoded panel pixel, whatever
+/// the file's depth. Uses huge pages where the system grants them, since the renderer's access is random.
 class Texels {
   public:
     Texels() = default;
@@ -35,8 +35,8 @@ class Texels {
 /// Copies an image.
 Texels make_texels(const Image&);
 
-/// The same as shown by a panel, which is driven by 8-bit codes: light rounded to them in the panel's encoding. Bit for bit the
-/// result of writing the image to a PNG and reading that as a panel image.
+/// Copies an image as it is shown by a panel, which is driven by 8-bit codes: light rounded to them in the panel's encoding.
+/// Bit for bit the result of writing the image to a PNG and reading that as a panel image.
 Texels shown_texels(const Image&, Encoding);
 
 }  // namespace lfdsim

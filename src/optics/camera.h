@@ -34,8 +34,8 @@ struct Block {
 /// The largest block. Its pixels share their base lens, so that this does not depend on the width of the kernel's packets.
 constexpr std::int32_t shared_width = 4, shared_height = 4;
 
-/// The ray through the point (column, row) of the frame, in pixels: its direction, not normalised, and where it crosses the first
-/// plane, in the array's frame. A ray that goes away from the display does not cross it; it gets some finite point.
+/// The ray through the point (column, row) of the frame, in pixels: its direction, not normalised, and where it crosses the
+/// first plane, in the array's frame. A ray that goes away from the display does not cross it; it gets some finite point.
 LFDSIM_FN void follow_to_first_plane(const RayOrigin& view, double column, double row, double d[3], double& x, double& y) {
     const double sx = (column - 0.5 * view.width) * view.pixel_mm, sy = (0.5 * view.height - row) * view.pixel_mm;
     for (int a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * sx + view.up[a] * sy;
@@ -48,8 +48,8 @@ LFDSIM_FN void follow_to_first_plane(const RayOrigin& view, double column, doubl
     y = at.y;
 }
 
-/// The base lens of the rays near the point (column, row) of the frame, the origin of their coordinates: its axis in the array's
-/// frame, which cells around it hold a lens, and where its axis meets the panel.
+/// The base lens of the rays near the point (column, row) of the frame, the origin of their coordinates: its axis in the
+/// array's frame, which cells around it hold a lens, and where its axis meets the panel.
 template <class S>
 struct BaseLens {
     double x, y;
@@ -103,7 +103,7 @@ LFDSIM_FN PixelRays<F> pixel_rays(const RayOrigin& view, std::int32_t column, st
     return {load<F>(x), load<F>(y), {load<F>(dx), load<F>(dy), z}, load<F>(per_length), z < F(S(-1e-9)), lens.extent, lens.panel};
 }
 
-/// The same pixels for two samples at once.
+/// A packet's pixels are given twice, for two samples at once.
 template <class H>
 LFDSIM_FN PixelRays<Pair<H>> twice(const PixelRays<H>& p) {
     return {{p.x, p.x},

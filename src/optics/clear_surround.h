@@ -25,9 +25,9 @@ struct Crossing {
     }
 };
 
-/// Tolerance at edges, mm: so close to an edge a ray may meet either face that shares it. It is a length, not a share of the lens:
-/// displays scaled by powers of two, whose other numbers round alike, from pitches of 0.1 mm to 500 mm keep all pixels but 1 in
-/// 10000, at edges.
+/// Tolerance at edges, mm: so close to an edge a ray may meet either face that shares it. It is a length, not a share of the
+/// lens: displays scaled by powers of two, whose other numbers round alike, from pitches of 0.1 mm to 500 mm keep all pixels
+/// but 1 in 10000, at edges.
 template <class F>
 LFDSIM_FN F slack() {
     return F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 2e-6 : 1e-11));
@@ -53,9 +53,9 @@ LFDSIM_FN F root(F a, F b, F c, bool rising, Mask<F>& real) {
     return select(far, w - b, -c) / select(far, a, b + w);
 }
 
-/// Path length to where a ray crosses a surface of revolution downwards (against +z) or upwards, if `valid`, and the unit normal
-/// there, towards +z; `at` is relative to the lens's axis and the vertex. Aspheres: the first change of sign of z - sag on the path
-/// through the cap's zone, in 32 steps, then bisected.
+/// Path length to where a ray crosses a surface of revolution downwards (against +z) or upwards, if `valid`, and the unit
+/// normal there, towards +z; `at` is relative to the lens's axis and the vertex. Aspheres: the first change of sign of z - sag
+/// on the path through the cap's zone, in 32 steps, then bisected.
 template <class F, class Surface>
 LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up, Mask<F>& valid) {
     using S = Scalar<F>;
@@ -109,7 +109,7 @@ LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool d
     return t;
 }
 
-/// The same for a cylinder along y': the crossing of its section by the ray seen along y'.
+/// A ray crosses a cylinder along y' where it crosses the section, seen along y'.
 template <class F, class Surface>
 LFDSIM_FN F cross_cylinder(const Surface& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up, Mask<F>& valid) {
     const F per = F(1) / sqrt(to.x * to.x + to.z * to.z);
@@ -149,8 +149,8 @@ LFDSIM_FN Mask<F> between_faces(const TracedDisplay<Scalar<F>>& display, Vec3<F>
     return inside;
 }
 
-/// The walls of one cell: a round one, or planes. caps_only: the walls above and below a plate, at the array's border and where the
-/// cap of a neighbour in a staggered row is lower.
+/// The walls of one cell: a round one, or planes. caps_only: the walls above and below a plate, at the array's border and where
+/// the cap of a neighbour in a staggered row is lower.
 template <class F>
 LFDSIM_FN void cross_walls(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Vec3<F> at, Vec3<F> to,
                            bool inwards, Cell<F> cell, Mask<F> active, bool caps_only, Crossing<F>& best) {
@@ -234,8 +234,8 @@ LFDSIM_FN void next_in_clear(const TracedDisplay<Scalar<F>>& display, const Exte
                [&](Cell<F> cell, Mask<F> active) { return solid(cell, active, true) && active; });
 }
 
-/// `plate`, one sheet: the next crossing of its top or bottom face, on the flat between the caps or on a cap of the cells on the
-/// path through their zone.
+/// `plate`, one sheet: the next crossing of its top or bottom face, on the flat between the caps or on a cap of the cells on
+/// the path through their zone.
 template <class F>
 LFDSIM_FN void next_on_face(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, bool top, bool inwards,
                             const GlassRays<F>& rays, Mask<F> active, Crossing<F>& best) {
@@ -340,8 +340,8 @@ struct InLattice {
     LFDSIM_FN void end(Mask<F>, Mask<F>&) const {}
 };
 
-/// Follows rays from above all glass until they leave it for good. `arrived`: towards the panel; `in_layer`: of these, into what
-/// the glass is glued to.
+/// Follows rays from above all glass until they leave it for good. `arrived`: towards the panel; `in_layer`: of these, into
+/// what the glass is glued to.
 template <class F, class Bodies>
 LFDSIM_FN void pass_glass(const TracedDisplay<Scalar<F>>& display, const Bodies& bodies, GlassRays<F>& rays, F& weight,
                           Mask<F> alive, Mask<F>& arrived, Mask<F>& in_layer) {

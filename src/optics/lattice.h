@@ -36,7 +36,7 @@ LFDSIM_FN F parity(F number) {
     return number - F(2) * floor(F(Scalar<F>(0.5)) * number);
 }
 
-/// By how much the axes of row j are to the right of those of even rows.
+/// The axes of row j are this far to the right of those of even rows.
 template <class F>
 LFDSIM_FN F stagger(const Lattice<Scalar<F>>& lattice, F j) {
     return parity(j) * F(lattice.half_pitch[0]);

@@ -50,8 +50,8 @@ struct SubpixelLight {
     }
 };
 
-/// Loads the texels of a Fetch. A register of N lanes holds N/4 whole texels, so its lanes are then colours, four to a pixel, and
-/// four registers hold the texels of all N pixels. Offsets are kept in memory, one for each pixel.
+/// Loads the texels of a Fetch. A register of N lanes holds N/4 whole texels, so its lanes are then colours, four to a pixel,
+/// and four registers hold the texels of all N pixels. Offsets are kept in memory, one for each pixel.
 template <class F>
 class Fetching {
   public:
@@ -90,8 +90,8 @@ class Fetching {
     F weight_;
 };
 
-/// The sum of weight x radiance for each pixel of a packet: R, G, B and an unused number, pixel after pixel, in four registers of
-/// F's width. In this layout a texel is added by one load and one product for its three colours.
+/// The sum of weight x radiance for each pixel of a packet: R, G, B and an unused number, pixel after pixel, in four registers
+/// of F's width. In this layout a texel is added by one load and one product for its three colours.
 template <class F>
 struct Light {
     static constexpr int N = LaneTraits<F>::width;
@@ -112,7 +112,7 @@ struct Light {
         sum[2] = sum[2] + (a.template light<2>(texels) + b.template light<2>(texels));
         sum[3] = sum[3] + (a.template light<3>(texels) + b.template light<3>(texels));
     }
-    /// The same of panels with or without subpixels.
+    /// Adds a fetched pixel of a panel with or without subpixels.
     LFDSIM_FN void add(const Emission<Scalar<F>>& emission, const float* texels, const Fetch<F>& fetch) {
         if (emission.whole) [[likely]]
             add(texels, fetch);

@@ -21,8 +21,8 @@ struct Ray {
 };
 
 /// Where a ray meets a surface: the point, relative to axis and vertex; the unit normal, towards the viewer's side; `cos` =
-/// -to.normal, positive for rays from that side, and `cos2`, its square in full accuracy; `ok`: the ray does meet it, within the
-/// semi-aperture.
+/// -to.normal, positive for rays from that side, and `cos2`, its square in full accuracy; `ok`: the ray does meet it, within
+/// the semi-aperture.
 template <class F>
 struct Hit {
     Vec3<F> at, normal;
@@ -32,8 +32,8 @@ struct Hit {
 
 // A surface is a SurfaceData, or one whose curvature differs from lane to lane (misaligned.h).
 
-/// Sag z and slope at s2 = x^2 + y^2 of the sheet that contains the vertex; `real`: it extends so far. d = 2 dz/d(s^2), so that the
-/// normal is along (-x d, -y d, 1).
+/// Sag z and slope at s2 = x^2 + y^2 of the sheet that contains the vertex; `real`: it extends so far. d = 2 dz/d(s^2), so that
+/// the normal is along (-x d, -y d, 1).
 template <class F, class Surface>
 LFDSIM_FN void sag(const Surface& surface, F s2, F& z, F& d, Mask<F>& real) {
     const F c = surface.curvature, root2 = F(1) - c * c * (F(1) + F(surface.conic)) * s2;
@@ -50,8 +50,8 @@ LFDSIM_FN void sag(const Surface& surface, F s2, F& z, F& d, Mask<F>& real) {
     }
 }
 
-/// Where a ray that starts in the vertex plane (at.z = 0) and comes from the viewer's side meets a sphere. The distance t is the
-/// root next to the vertex of c t^2/2 - (d_z - c b) t + c s^2/2 = 0, b = x d_x + y d_y, s^2 = x^2 + y^2, in a form without
+/// Where a ray that starts in the vertex plane (at.z = 0) and comes from the viewer's side meets a sphere. The distance t is
+/// the root next to the vertex of c t^2/2 - (d_z - c b) t + c s^2/2 = 0, b = x d_x + y d_y, s^2 = x^2 + y^2, in a form without
 /// cancellation that also holds for c = 0 (Welford, Aberrations of Optical Systems, 1986, sec. 4.5); on a sphere the cosine of
 /// incidence is the square root of the discriminant.
 template <class F, class Surface>
@@ -69,8 +69,8 @@ LFDSIM_FN Hit<F> meet_sphere(const Surface& surface, Ray<F> ray) {
     return hit;
 }
 
-/// The same for a circular cylinder along y'. Seen along y' the ray meets a circle; length2 is the square of its direction's part
-/// in that plane, and the discriminant that of the ray in space.
+/// A ray meets a circular cylinder along y'. Seen along y' the ray meets a circle; length2 is the square of its direction's
+/// part in that plane, and the discriminant that of the ray in space.
 template <class F, class Surface>
 LFDSIM_FN Hit<F> meet_round_cylinder(const Surface& surface, Ray<F> ray, F length2) {
     const F c = surface.curvature;

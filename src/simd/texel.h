@@ -40,7 +40,7 @@ LFDSIM_FN LightSums load_sums(const std::uint32_t* from) {
     __builtin_memcpy(&sums, from, sizeof sums);
     return sums;
 }
-/// Of differences, as two's complement.
+/// Sums of light that are differences modulo 2^32, as light: two's complement.
 LFDSIM_FN Texel texel_of(LightSums a) {
     typedef std::int32_t Signed __attribute__((vector_size(16)));
     return __builtin_convertvector((Signed)a, Texel);

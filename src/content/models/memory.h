@@ -7,7 +7,7 @@
 
 namespace lfdsim {
 
-/// Of models and pictures as they were read; one that is there several times counts once.
+/// The memory that models and pictures take as they were read; one that is there several times counts once.
 double bytes_of(const ContentParts&);
 
 /// The most that a scene of these takes beside them while it is made, with the key and the words for an error.

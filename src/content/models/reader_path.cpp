@@ -11,7 +11,8 @@ namespace lfdsim {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of the shared library or program that holds this function; empty where it is known by a relative name, which says nothing.
+/// The path of the shared library or program that holds this function; empty where it is known by a relative name, which says
+/// nothing.
 fs::path own_folder() {
     Dl_info own{};
     if (dladdr(reinterpret_cast<void*>(&reader_path), &own) == 0 || !own.dli_fname) return {};

@@ -14,12 +14,13 @@ namespace {
 /// Whether the colours of a pixel have rays of their own.
 bool by_channel(const Display& d) { return made_by_channel(d) || (d.content.pickup != PickupKind::nodal && disperses(d)); }
 
-/// The rays of the pick-up, a block at a time: of each pixel those of its red, then of green and blue, where they differ. They must
-/// hit the surface that the viewer sees first along the line: they start in the plane z = top, just above the scene on the viewer's
-/// side, and travel towards the panel and beyond it. Their direction has dz = -1, so that t is the depth below the plane.
+/// The rays of the pick-up, a block at a time: of each pixel those of its red, then of green and blue, where they differ. They
+/// must hit the surface that the viewer sees first along the line: they start in the plane z = top, just above the scene on the
+/// viewer's side, and travel towards the panel and beyond it. Their direction has dz = -1, so that t is the depth below the
+/// plane.
 class PickupRays {
   public:
-    /// Of content in the box with this middle and half these extents, mm.
+    /// Serves content in the box with this middle and half these extents, mm.
     PickupRays(const Display& display, const Geometry& geometry, const Vec3d& centre_mm, const Vec3d& half_mm,
                const std::vector<LensMapping>& mappings)
         : pickup_(display, geometry),
@@ -114,7 +115,8 @@ class PickupRays {
         return rays;
     }
 
-    /// Half the scene's box. The slack covers the rounding of positions (about 1e-7 of the box) and of the arithmetic with rays.
+    /// Half the scene's box. The slack covers the rounding of positions (about 1e-7 of the box) and of the arithmetic with
+    /// rays.
     float reach(std::size_t k) const { return float(half_mm_[k] * 1.0001 + 1e-6); }
 
     RayCoordinate part(double axis, double slope, std::size_t k) const {

@@ -23,8 +23,8 @@ class LensMapping {
     /// A place in the pixel and one in the aperture, each number in [0, 1).
     using RayPlace = std::array<double, 4>;
 
-    /// Traces the lens of a valid display, resolved for green light, in light of this wavelength. rays > 0: so many rays of each
-    /// point, too. threads 0: all; the same bits for any number. A tenth of a second.
+    /// Traces the lens of a valid display, resolved for green light, in light of this wavelength. rays > 0: so many rays of
+    /// each point, too. threads 0: all; the same bits for any number. A tenth of a second.
     LensMapping(const Display&, const Geometry& green, double wavelength_nm, int rays, int threads);
 
     /// A place between the table's nodes along one axis: the first of four nodes, and how much each of them counts.
@@ -34,8 +34,8 @@ class LensMapping {
     };
     Between between(std::size_t axis, double u) const;
 
-    /// The shift of the line on which most light of u travels (-1), every part of the lens's aperture counted alike, or that of one
-    /// of the rays. False: none of that light gets through.
+    /// The shift of the line on which most light of u travels (-1), every part of the lens's aperture counted alike, or that of
+    /// one of the rays. False: none of that light gets through.
     bool shift(int ray, const Between& ux, const Between& uy, LineShift& out) const {
         return (ray < 0 ? lines_ : rays_[std::size_t(ray)]).at(width_, ux, uy, out);
     }
@@ -46,8 +46,8 @@ class LensMapping {
     /// The table: nodes along x and y, each row from -reach to +reach.
     std::array<int, 2> nodes() const { return nodes_; }
     std::array<double, 2> reach_mm() const { return reach_; }
-    /// Of a node: that line, and the share of the light of the point on the axis; 0 where none gets through (there the line is
-    /// extrapolated).
+    /// The entry of a node: that line, and the share of the light of the point on the axis; 0 where none gets through (there
+    /// the line is extrapolated).
     const LineShift& node(int i, int j) const { return lines_.shift[at(i, j)]; }
     double share(int i, int j) const { return double(lines_.light[at(i, j)]); }
 
@@ -70,7 +70,7 @@ class LensMapping {
     std::vector<RayPlace> places_;
 };
 
-/// Of red, green and blue light, or one for all where no glass disperses; rays as content.pickup asks for.
+/// The mappings of red, green and blue light, or one for all where no glass disperses; rays as content.pickup asks for.
 std::vector<LensMapping> lens_mappings(const Display&, const Geometry&, int threads);
 
 }  // namespace lfdsim

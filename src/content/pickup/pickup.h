@@ -11,9 +11,9 @@
 
 namespace lfdsim {
 
-/// The line { (x, y) + (z - z_rear) (mx, my) } on the viewer's side of the lens: from panel point P through the front nodal point,
-/// then parallel to itself from the rear one. (x, y) is the lens's axis, unless it stands by itself. Or a line that is shifted
-/// against it.
+/// The line { (x, y) + (z - z_rear) (mx, my) } on the viewer's side of the lens: from panel point P through the front nodal
+/// point, then parallel to itself from the rear one. (x, y) is the lens's axis, unless it stands by itself. Or a line that is
+/// shifted against it.
 struct NodalLine {
     double x, y, mx, my;
     bool owned;         // false: the nearest elemental image belongs to no lens, the pixel stays black
@@ -22,7 +22,7 @@ struct NodalLine {
 
 class Pickup {
   public:
-    /// Of elemental images made for a display, `g` its resolve().
+    /// The pick-up of elemental images made for a display, `g` its resolve().
     Pickup(const Display& d, const Geometry& g) : Pickup(d, Meant{meant_geometry(d, g)}) { moved_ = moved_lenses(d, g); }
 
   private:
@@ -51,9 +51,9 @@ class Pickup {
     double column(double x) const { return std::floor(x / pixel_ - left_); }
     double row(double y) const { return std::floor(top_ - y / pixel_); }
 
-    /// The line of the panel point (x, y). The line from the viewer at (0, 0, D) through the nodal points of the lens at C meets
-    /// the panel at C scale, scale = 1 + g / (D - z_rear): the centre of its elemental image. The nearest centre is found in the
-    /// array's own axes, where lens (i, j) covers the unit square from (i, j).
+    /// The line of the panel point (x, y). The line from the viewer at (0, 0, D) through the nodal points of the lens at C
+    /// meets the panel at C scale, scale = 1 + g / (D - z_rear): the centre of its elemental image. The nearest centre is found
+    /// in the array's own axes, where lens (i, j) covers the unit square from (i, j).
     NodalLine line(double x, double y) const {
         return line(x, y, [](double, double, Shift&) { return true; });
     }
@@ -63,8 +63,8 @@ class Pickup {
         double x = 0, y = 0, mx = 0, my = 0;
     };
 
-    /// The same line, shifted by what shift(ux, uy, out) says of the panel point's place from its lens's axis, in the array's
-    /// frame. It answers whether light of that point leaves the lens. Of strips its x and mx count.
+    /// The line of a panel point, shifted by what shift(ux, uy, out) says of the panel point's place from its lens's axis, in
+    /// the array's frame. It answers whether light of that point leaves the lens. Of strips its x and mx count.
     template <class ShiftOf>
     NodalLine line(double x, double y, const ShiftOf& shift_of) const {
         if (moved_) return line_of_moved(x, y, shift_of);
@@ -125,7 +125,7 @@ class Pickup {
         return {std::clamp(lens.i, 0., lattice_.count[0] - 1), std::clamp(lens.j, 0., lattice_.count[1] - 1)};
     }
 
-    /// Of a lens that stands by itself.
+    /// The nodal points of a misaligned lens.
     Nodal nodal(optics::Cell<double> lens) const {
         lens = nearest(lens);
         const MovedLens& moved = (*moved_)[std::size_t(lens.j * lattice_.count[0] + lens.i)];
@@ -179,8 +179,8 @@ class Pickup {
     }
 
     /// Strips show a panel point in the plane through their rear nodal line, in which the viewer's eyes, on a level with the
-    /// panel's middle at the distance D, see it from one place. Along the strip its light passes plane plates: in the array's frame
-    /// it rises by m_y for each mm of their reduced thickness.
+    /// panel's middle at the distance D, see it from one place. Along the strip its light passes plane plates: in the array's
+    /// frame it rises by m_y for each mm of their reduced thickness.
     template <class ShiftOf>
     NodalLine line_of_strip(double x, double y, double owner_x, const ShiftOf& shift_of) const {
         const optics::Cell<double> lens{number(owner_x, 0), 0};

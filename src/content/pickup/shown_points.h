@@ -20,8 +20,8 @@ class ShownPoints {
   public:
     using Point = std::array<double, 2>;
 
-    /// For the middle of the pixel, or of the channel's light. Where a place is given: for the point at that share of the light's
-    /// width (0) and height (1), taken of its rectangles one after the other.
+    /// For the middle of the pixel, or of the channel's light. Where a place is given: for the point at that share of the
+    /// light's width (0) and height (1), taken of its rectangles one after the other.
     ShownPoints(const Panel& panel, bool by_channel, int channel, const std::optional<Point>& place = {}) {
         if (by_channel) cell_ = subpixel_cell(panel).size;
         for (std::int64_t row = 0; row < cell_[1]; ++row)
@@ -66,7 +66,7 @@ class ShownPoints {
     std::vector<std::optional<Point>> of_;
 };
 
-/// Of red, green and blue; of one, where all three are made for the same.
+/// The points of red, green and blue; one point, where all three are made for it.
 inline std::vector<ShownPoints> shown_points(const Display& d) {
     std::vector<ShownPoints> all;
     for (int channel = 0; channel < (made_by_channel(d) ? 3 : 1); ++channel) all.emplace_back(d.panel, made_by_channel(d), channel);

@@ -11,8 +11,8 @@ double bits_reversed(std::int64_t i) {
     return value;
 }
 
-/// Rays from a camera of a grid through the pixels of the focus, a block at a time. Their direction has dz = -1, so that t is the
-/// depth below the plane in which they start: that of the scene's top, or the camera's own where that is lower.
+/// Rays from a camera of a grid through the pixels of the focus, a block at a time. Their direction has dz = -1, so that t is
+/// the depth below the plane in which they start: that of the scene's top, or the camera's own where that is lower.
 class GridViewRays {
   public:
     GridViewRays(const ContentScene& scene, const Geometry& geometry, const ViewGrid& grid, int column, int row,
@@ -24,7 +24,7 @@ class GridViewRays {
         start_z_ = std::min(camera_z_, top);
     }
 
-    /// Of depth, each ray is of the pixel's middle.
+    /// A picture of depth has one ray a pixel, through its middle.
     Beam beam() const {
         const double pixel = std::max(grid_.width_mm / making_.width, grid_.height_mm / making_.height);
         return {float(pixel / grid_.distance_mm / std::sqrt(double(making_.samples))), float(start_z_ - camera_z_)};

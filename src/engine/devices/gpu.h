@@ -30,13 +30,15 @@ struct GpuRun {
     Done done;
 };
 
-/// Renders a display whose estimator is `point` on the chosen GPU; the panel stays there as long as the `SummedPanel` exists, where
-/// one is given. Returns nothing if the GPU failed or the picture does not fit, and the CPU is to render it. If the user insists on
-/// the GPU: throws InputError where it does not fit, DeviceError where the GPU failed. May be called by several threads.
+/// Renders a display whose estimator is `point` on the chosen GPU; the panel stays there as long as the `SummedPanel` exists,
+/// where one is given. Returns nothing if the GPU failed or the picture does not fit, and the CPU is to render it. If the user
+/// insists on the GPU: throws InputError where it does not fit, DeviceError where the GPU failed. May be called by several
+/// threads.
 std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const SummedPanel* summed, const std::vector<optics::SummedImage>&, Work&,
                                     Job&);
 
-/// The same, but the picture is compared on the GPU and not transferred. The work's picture is not touched; it has no target error.
+/// Renders on the GPU, where the picture is compared and from where it is not transferred. The work's picture is not touched;
+/// it has no target error.
 struct GpuComparison {
     GpuRun run;
     Likeness likeness;  // where the run is complete

@@ -25,11 +25,11 @@ double making_panel_bytes(const Display&);
 std::string making_panel_text(const Display&);
 void require_panel_memory(const Display&);
 
-/// The same for a picture and the panel image together; the error names the larger of the two.
+/// Refuses a picture and the panel image that do not fit together; the error names the larger of the two.
 void require_picture_memory(std::int64_t columns, std::int64_t rows, double panel_bytes);
 
-/// Memory that several share, as the visitors of the viewer do. Who needs some claims it first, so that all together fit; a claim
-/// ends with its object.
+/// Memory that several share, as the visitors of the viewer do. Who needs some claims it first, so that all together fit; a
+/// claim ends with its object.
 class MemoryBudget {
   public:
     explicit MemoryBudget(double bytes = free_bytes());

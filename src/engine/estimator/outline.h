@@ -41,9 +41,9 @@ struct Moments {
     F area, x, y, half_width, half_height;
 };
 
-/// Those of a polygon's part within a box, by Green's theorem: integrals along the border of the polygon, cut to the box. The
-/// integrands are of third degree at most between the points where the border enters and leaves the box, so two points of Gauss's
-/// rule there give them exactly.
+/// The moments of a polygon's part within a box follow from Green's theorem: integrals along the border of the polygon, cut to
+/// the box. The integrands are of third degree at most between the points where the border enters and leaves the box, so two
+/// points of Gauss's rule there give them exactly.
 template <class F>
 LFDSIM_FN Moments<F> part_within(const Corners<F>& of, const Box<F>& box) {
     using S = Scalar<F>;

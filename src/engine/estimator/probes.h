@@ -35,7 +35,7 @@ class Neighbours {
     LFDSIM_FN explicit Neighbours(const S (&a)[most_probes]) {
         for (int p = 0; p < most_probes; ++p) padded_[pad + p] = a[p];
     }
-    /// Of F's lanes, from probe p on; anything where there is no such probe.
+    /// The neighbours' numbers for F's lanes, from probe p on; anything where there is no such probe.
     template <class F>
     LFDSIM_FN F at(int p, int step) const {
         return load<F>(padded_ + pad + p + step);
@@ -46,7 +46,8 @@ class Neighbours {
     S padded_[most_probes + 2 * pad] = {};
 };
 
-/// Sums over the probes of four numbers of each times its weight, at several nodes; and the means, whose weights' sum is the last.
+/// Sums over the probes of four numbers of each times its weight, at several nodes; and the means, whose weights' sum is the
+/// last.
 template <class S, int most_nodes>
 class NodeSums {
   public:

@@ -24,15 +24,16 @@ class BlockPainter {
 };
 
 /// Renders the blocks that overlap a tile, each with more and more samples until its estimated error, linear light, is below
-/// `target` in all groups of 4 x 4 pixels (root mean square over a group and its colours), or the samples are at their limit. Each
-/// group's error of each colour is written to `error`, laid out as the picture. Returns the number of samples taken, or nothing
-/// where the job was cancelled on the way: a small target may take long. The order in which blocks are done changes no bit.
+/// `target` in all groups of 4 x 4 pixels (root mean square over a group and its colours), or the samples are at their limit.
+/// Each group's error of each colour is written to `error`, laid out as the picture. Returns the number of samples taken, or
+/// nothing where the job was cancelled on the way: a small target may take long. The order in which blocks are done changes no
+/// bit.
 ///
-/// Samples are points, in independent repetitions with seeds of their own, twice as many each time; the error is the standard error
-/// of their mean.
+/// Samples are points, in independent repetitions with seeds of their own, twice as many each time; the error is the standard
+/// error of their mean.
 std::optional<std::int64_t> refine_tile(BlockPainter&, const Tile& tile, double target, float* error, const Job&);
 
-/// The same with a CPU kernel, block after block.
+/// Refines with a CPU kernel, block after block.
 std::optional<std::int64_t> refine_tile(Kernel, const Tile& tile, double target, float* error, const Job&);
 
 }  // namespace lfdsim

@@ -30,7 +30,7 @@ LensTrace::LensTrace(const Display& display, const Geometry& geometry)
     }
 }
 
-/// By how much, in units of the aperture, a point lies outside of it; 0 or less: inside.
+/// The distance of a point from the aperture, in units of its radius; 0 or less: it lies inside.
 double LensTrace::outside(double x, double y, double radius) const {
     double reach = std::hypot(x, optics::across(scene_.lattice, y)) / radius;
     for (int pair = 0; scene_.aperture == Aperture::cell && pair < optics::border_pairs(scene_.lattice); ++pair) {

@@ -27,7 +27,7 @@ class CameraPoints {
         const double pixels = view_.distance / depth / view_.pixel_mm;  // in the frame, of a millimetre at this depth
         return std::array{0.5 * view_.width + dot(to, axes_.right) * pixels, 0.5 * view_.height - dot(to, axes_.up) * pixels};
     }
-    /// Of a rectangle's corners from the top left on, clockwise.
+    /// Takes a rectangle's corners from the top left on, clockwise.
     template <class Corner>
     std::optional<Corners> of_corners(const Corner& corner) const {
         constexpr double right[] = {-1, 1, 1, -1}, up[] = {1, 1, -1, -1};

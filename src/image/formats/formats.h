@@ -31,7 +31,7 @@ using Allocate = std::function<Pixels(std::int64_t columns, std::int64_t rows)>;
 void read_png(const InputFile&, Encoding, const Allocate&);
 void read_jpeg(const InputFile&, Encoding, const Allocate&);
 void read_exr(const InputFile&, const Allocate&);
-/// The same for a layer; nothing is allocated if the file has none of this name.
+/// Reads a layer; nothing is allocated if the file has none of this name.
 void read_exr_layer(const InputFile&, const std::string& layer, const Allocate&);
 /// Floats are light, whole numbers of one or two bytes are codes.
 void read_npy(const InputFile&, Encoding, const Allocate&);

@@ -18,8 +18,8 @@ namespace lfdsim {
 /// Settings that made a picture, kept in it (PNG text chunks, EXR attributes; NPY has no place for them).
 using Metadata = std::map<std::string, std::string>;
 
-/// Further data for every pixel, of the picture's size; for instance "error", the standard error of each channel in linear light.
-/// EXR keeps it as the channels NAME.R, NAME.G, NAME.B; no other format can.
+/// Further data for every pixel, of the picture's size; for instance "error", the standard error of each channel in linear
+/// light. EXR keeps it as the channels NAME.R, NAME.G, NAME.B; no other format can.
 struct ImageLayer {
     std::string name;  // not empty; a dot makes a layer within a layer
     Image image;
@@ -32,14 +32,14 @@ struct WriteOptions {
     std::vector<ImageLayer> layers = {};  // EXR only: see keeps_layers()
 };
 
-/// Throws InputError unless `path` ends in .png, .exr or .npy and a file can be made there: makes and removes the temporary file of
-/// write_image(). What is at `path` stays as it is.
+/// Throws InputError unless `path` ends in .png, .exr or .npy and a file can be made there: makes and removes the temporary
+/// file of write_image(). What is at `path` stays as it is.
 void check_writable(const std::filesystem::path& path);
 
 /// Whether a file of this name keeps WriteOptions::metadata. Throws InputError like check_writable() for another extension.
 bool keeps_metadata(const std::filesystem::path& path);
 
-/// The same for WriteOptions::layers: true for .exr.
+/// Whether a file of this name keeps WriteOptions::layers: true for .exr.
 bool keeps_layers(const std::filesystem::path& path);
 
 /// Writes beside, then renames, so that no partial file is ever seen. .png: see WriteOptions; .exr: float32 RGB, linear;
@@ -52,15 +52,16 @@ void write_image(const std::filesystem::path& path, const Image&, const WriteOpt
 void write_npy(const std::filesystem::path& path, std::span<const std::int64_t> shape, std::span<const float> values);
 
 /// The bytes of the file that write_image() would write for a name with this ending (".png", ".exr", ".npy"). Finished rows are
-/// reported to the job, if there is one, without a stage; an exception from its advance() ends the work. Throws like write_image().
+/// reported to the job, if there is one, without a stage; an exception from its advance() ends the work. Throws like
+/// write_image().
 std::string image_bytes(const std::string& ending, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
-/// Linear light. `encoding` is that of code values: PNG, JPEG, and NPY of uint8 and uint16; EXR, PFM and other NPY are linear. An
-/// alpha channel must be full everywhere. Ignores layers.
-/// Throws InputError, which names the file and the fault: missing, truncated, not an image, too large.
+/// Linear light. `encoding` is that of code values: PNG, JPEG, and NPY of uint8 and uint16; EXR, PFM and other NPY are linear.
+/// An alpha channel must be full everywhere. Ignores layers. Throws InputError, which names the file and the fault: missing,
+/// truncated, not an image, too large.
 Image read_image(const std::filesystem::path& path, Encoding encoding);
 
-/// The same for a panel image, directly into texels, row by row. Throws InputError, with both sizes, if it is not columns x rows.
+/// Reads a panel image directly into texels, row by row. Throws InputError, with both sizes, if it is not columns x rows.
 /// A large one is a stage of the job like those of write_image().
 Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows,
                         Job* = nullptr);
@@ -73,8 +74,9 @@ Metadata read_metadata(const std::filesystem::path& path);
 /// InputError for an unknown extension.
 bool holds_codes(const std::filesystem::path& path);
 
-/// How a camera was held, from a JPEG's Exif data (CIPA DC-008, tag Orientation): 1 upright ... 8; 1 where there is no such tag.
-/// read_image() returns the picture as it is stored; viewers turn it. Only the file's header is read. Throws like read_image().
+/// How a camera was held, from a JPEG's Exif data (CIPA DC-008, tag Orientation): 1 upright ... 8; 1 where there is no such
+/// tag. read_image() returns the picture as it is stored; viewers turn it. Only the file's header is read. Throws like
+/// read_image().
 int read_orientation(const std::filesystem::path& path);
 
 /// A layer of an EXR file, its values finite; nothing where the file has no such layer or is of another format. Throws like

@@ -8,7 +8,7 @@ namespace lfdsim {
 /// Pixels from a picture's upper left corner: (0.5, 0.5) is the centre of its first pixel.
 using Point = std::array<double, 2>;
 
-/// Of a screen as its viewer sees it: top left, top right, bottom right, bottom left.
+/// The corners of a screen as its viewer sees it: top left, top right, bottom right, bottom left.
 using Corners = std::array<Point, 4>;
 
 /// Throws InputError at `where` unless the corners are those of a convex quadrilateral in that order, at least 16 pixels apart,
@@ -18,8 +18,8 @@ void check_corners(const std::string& where, const Corners&);
 /// (x, y) to ((a x + b y + c)/w, (d x + e y + f)/w), w = g x + h y + i.
 class Homography {
   public:
-    /// Maps each corner of `from` to the same corner of `to`; both must pass check_corners(). Composed of the two closed forms from
-    /// the unit square: P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 2.2.3.
+    /// Maps each corner of `from` to the same corner of `to`; both must pass check_corners(). Composed of the two closed forms
+    /// from the unit square: P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, section 2.2.3.
     Homography(const Corners& from, const Corners& to);
 
     /// w is positive inside `from`; where it is not, the point has no image and the result is meaningless.

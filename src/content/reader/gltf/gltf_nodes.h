@@ -18,8 +18,8 @@ class GltfNodes {
 
     /// From a node's coordinates to the scene's.
     const Matrix& world(std::size_t node) const { return world_[node]; }
-    /// Those of the file's scene in its order; of a file without scenes, all. Parts that KHR_node_visibility hides are not among
-    /// them.
+    /// The nodes of the file's scene in its order; of a file without scenes, all. Parts that KHR_node_visibility hides are not
+    /// among them.
     std::vector<std::size_t> shown() const;
 
   private:

@@ -19,14 +19,14 @@ class Folder : public Assimp::DefaultIOSystem {
     Assimp::IOStream* Open(const char* file, const char* mode) override;
 
     /// The file that a name in the model refers to: inside the folder, links resolved; backslashes count as slashes, and a path
-    /// that leads out of the folder (often one of the author's own machine) stands for the file of that name beside the model. Case
-    /// is ignored where no exact match exists.
+    /// that leads out of the folder (often one of the author's own machine) stands for the file of that name beside the model.
+    /// Case is ignored where no exact match exists.
     std::optional<std::filesystem::path> find(std::string name) const;
 
     /// Gives the text of a file that is to be read in place of what it has; none of most.
     std::function<std::optional<std::string>(const std::string& file)> edited = [](const std::string&) { return std::nullopt; };
 
-    /// Those that were opened for reading.
+    /// The files that were opened for reading.
     const std::vector<std::string>& opened() const { return opened_; }
 
   private:
