@@ -163,7 +163,7 @@ bool is_sidecar(const fs::path& path, const std::string& mapping) {
 
 void MappingOption::check(const std::string& output) const {
     if (!given()) return;
-    if (fs::weakly_canonical(fs::absolute(path())) == fs::weakly_canonical(fs::absolute(output)))
+    if (!output.empty() && fs::weakly_canonical(fs::absolute(path())) == fs::weakly_canonical(fs::absolute(output)))
         throw InputError("--output, --mapping", "are two files of one name; give two names");
     const fs::path ending = fs::path(path()).extension();
     if (ending != ".npy" && ending != ".exr")
