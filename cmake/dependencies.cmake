@@ -1,4 +1,4 @@
-# The libraries that the floors stand on; where lfdsim is installed, its package configuration reads this too.
+# The libraries that lfdsim's depend on; where lfdsim is installed, its package configuration reads this too.
 include(CMakeFindDependencyMacro)
 
 # Debian's Imath, under OpenEXR, says at length that a Python library is absent, which nothing here uses.

@@ -5,11 +5,11 @@ include(CMakePackageConfigHelpers)
 add_library(lfdsim_umbrella INTERFACE)
 add_library(lfdsim::lfdsim ALIAS lfdsim_umbrella)
 set_target_properties(lfdsim_umbrella PROPERTIES EXPORT_NAME lfdsim)
-set(floors lfdsim_model lfdsim_image lfdsim_engine lfdsim_meshed lfdsim_content lfdsim_files lfdsim_analysis lfdsim_report)
-target_link_libraries(lfdsim_umbrella INTERFACE ${floors})
+set(libraries lfdsim_model lfdsim_image lfdsim_engine lfdsim_meshed lfdsim_content lfdsim_files lfdsim_analysis lfdsim_report)
+target_link_libraries(lfdsim_umbrella INTERFACE ${libraries})
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/lfdsim)
-install(TARGETS lfdsim_umbrella ${floors} EXPORT lfdsimTargets
+install(TARGETS lfdsim_umbrella ${libraries} EXPORT lfdsimTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lfdsim)
 install(EXPORT lfdsimTargets NAMESPACE lfdsim:: DESTINATION ${package})

@@ -13,7 +13,7 @@ constexpr int threads = 128;  // of a thread block
 
 inline unsigned thread_blocks(std::int64_t items) { return unsigned((items + threads - 1) / threads); }
 
-/// One kernel for each way through an array.
+/// One kernel for each row of optics::Specialisations.
 template <bool sobol>
 struct PointKernels {
     /// Starts the kernel of the frame's display for `items` > 0 items; cudaGetLastError() tells whether it could.

@@ -5,7 +5,7 @@
 
 namespace lfdsim {
 
-/// A kernel and the scene that it is given with each tile. The scene may be a base class of a larger one that the kernel expects.
+/// A kernel and the display that it is given with each tile, which may be a base class of a larger one that the kernel expects.
 struct Tracer {
     const char* name;
     Kernel run;
