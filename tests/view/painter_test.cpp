@@ -10,6 +10,8 @@
 #include "../sanitizers.h"
 #include "analysis/pictures/views.h"
 #include "engine/render.h"
+#include "engine/scene/traced_display.h"
+#include "files/description/display_file.h"
 #include "view/answers/likeness.h"
 #include "view/painting/eye_displays.h"
 #include "visit.h"
@@ -239,6 +241,19 @@ TEST_F(PainterTest, LikenessIsThatOfTheAnalysis) {
     const std::vector<std::uint8_t> difference = codes_of(outbox.wait(2, "difference"), folder);
     EXPECT_EQ(difference[0], 128);  // beside the screen both are black
     EXPECT_EQ(outbox.wait(2, "difference").header["ssim"], photograph.header["ssim"]);
+}
+
+// A GPU has no filtered light: one sample a pixel there would be noise.
+TEST(CoarseView, HasManyPointsOnAGpu) {
+    Display d = parse_display(tiny_display, "tiny.toml");
+    d.camera.pupil_diameter_mm = 3;
+    const Display coarse = coarse_view(d, resolve(d), 0.5, false), there = coarse_view(d, resolve(d), 0.5, true);
+    EXPECT_EQ(estimator_of(coarse), Estimator::filtered);
+    EXPECT_EQ(samples_of(coarse), 1);
+    EXPECT_EQ(estimator_of(there), Estimator::point);
+    EXPECT_EQ(samples_of(there), 64);
+    EXPECT_EQ(there.camera.resolution, coarse.camera.resolution);
+    EXPECT_FALSE(there.camera.pupil_diameter_mm);
 }
 
 TEST(Difference, IsGreyWhereBothAreEqual) {

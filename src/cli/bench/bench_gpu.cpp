@@ -15,18 +15,15 @@ namespace {
 
 struct Wanted {
     const char* name;
-    Estimator estimator;
     int samples;  // 0: no diffuser, one ray tells all
 };
 constexpr Wanted wanted[] = {
-    {"point, 100 samples", Estimator::point, 100},     {"point, 16 samples", Estimator::point, 16},
-    {"filtered, 1 sample", Estimator::filtered, 1},    {"filtered, 4 samples", Estimator::filtered, 4},
-    {"filtered, 16 samples", Estimator::filtered, 16}, {"no diffuser", Estimator::point, 0},
+    {"points, 100 samples", 100}, {"points, 16 samples", 16}, {"points, 4 samples", 4}, {"points, 1 sample", 1}, {"no diffuser", 0},
 };
 
 Display display_of(const Wanted& w) {
     Display d = bench_display();
-    d.render.estimator = w.estimator;
+    d.render.estimator = Estimator::point;
     d.render.samples = std::max(w.samples, 1);
     if (w.samples == 0) d.diffuser.reset();
     return d;
@@ -75,7 +72,7 @@ void bench_gpu(Bench& bench) {
         const Display d = display_of(w);
         return render(d, resolve(d), summed, on_gpu(band(d, 64)), bench.job()).image;
     };
-    const Image truth = rows({"", Estimator::point, 16384});
+    const Image truth = rows({"", 16384});
     for (std::size_t k = 0; k < all.size(); ++k) {
         if (all[k].seconds.empty() || own[k].empty()) continue;
         std::sort(own[k].begin(), own[k].end());

@@ -19,8 +19,8 @@ constexpr int sweep_views = 122;  // 61 angles along each axis
 
 Display sweep_display(bool quick) {
     Display d = bench_display();
-    d.render.estimator = Estimator::filtered;
-    d.render.samples = 4;
+    d.render.estimator = Estimator::point;
+    d.render.samples = 16;
     if (quick) d.camera.resolution = {960, 540};
     return d;
 }
@@ -33,7 +33,7 @@ Display view(const Display& d, int k) { return seen_from(d, k < 61 ? k - 30 : 0,
 void bench_sweep(Bench& bench) {
     const bool quick = bench.settings.quick;
     const Display d = sweep_display(quick);
-    bench.heading(fmt::format("A field of view: {} views of {} x {}, 4 filtered samples, each with SSIM to an existing photograph",
+    bench.heading(fmt::format("A field of view: {} views of {} x {}, 16 points a pixel, each with SSIM to an existing photograph",
                               sweep_views, d.camera.resolution[0], d.camera.resolution[1]));
     const Texels texels = noise_panel(d);
     const SummedPanel panel(texels, bench.settings.threads);

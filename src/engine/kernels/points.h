@@ -18,34 +18,28 @@ LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::Pixel
 }
 
 /// The light of one pixel, for a GPU's thread: there other threads hide latency, while code that does not fit into the cache of
-/// instructions, and registers, are dear. So one loop traces all samples. The sums are those of gather(). It does not call
-/// trace_one(), which would keep the sampler out of the registers.
+/// instructions, and registers, are dear. So one loop, with none inside it, traces all samples. The sums are those of gather(). It
+/// does not call trace_one(), which would keep the sampler out of the registers.
 template <optics::Facts facts, bool sobol>
 LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<F>& pixels, std::uint32_t pixel) {
     const optics::TracedDisplay<float>& display = *tile.display;
     optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling,
                                facts.plain_light == optics::Known::yes ? 2 : tile.dimensions, tile.view->seed, pixel);
-    optics::Light<F> total, block;
-    for (std::uint32_t sample = 0; sample < tile.samples; sample += 2) {
-        optics::Light<F> pair;
-        const std::uint32_t end = optics::min(sample + 2, tile.samples);
+    optics::Light<F> total, block, pair;
 #ifdef __CUDACC__
 #pragma unroll 1
 #endif
-        for (std::uint32_t k = sample; k < end; ++k) {
-            const optics::Fetch<F> fetch(optics::trace<facts>(display, *tile.view, pixels, sampler));
-            if constexpr (facts.plain_light == optics::Known::yes)
-                pair.add(tile.texels, fetch);
-            else
-                pair.add(display.emission, tile.texels, fetch);
-            sampler.next(*tile.directions);
-        }
-        if (end == sample + 1) {  // the last of an odd number
-            total.add(pair);
-            break;
-        }
+    for (std::uint32_t k = 0; k < tile.samples; ++k) {
+        const optics::Fetch<F> fetch(optics::trace<facts>(display, *tile.view, pixels, sampler));
+        if constexpr (facts.plain_light == optics::Known::yes)
+            pair.add(tile.texels, fetch);
+        else
+            pair.add(display.emission, tile.texels, fetch);
+        sampler.next(*tile.directions);
+        if (k % 2 == 0 && k + 1 < tile.samples) continue;  // the pair's second is to come
         block.add(pair);
-        if (end % block_samples == 0 || end + 1 >= tile.samples) {
+        pair = {};
+        if ((k + 1) % block_samples == 0 || k + 2 >= tile.samples) {  // the last of an odd number is a block of its own
             total.add(block);
             block = {};
         }

@@ -1,5 +1,6 @@
 #include "view/painting/drawing.h"
 
+#include "engine/devices/devices.h"
 #include "engine/devices/memory.h"
 #include "engine/render.h"
 #include "engine/scene/traced_display.h"
@@ -28,6 +29,7 @@ constexpr double jpeg_cost = 6e-9, png_cost = 25e-9, panel_cost = 30e-9;  // sec
 void Drawing::begin(const Wanted& wanted) {
     eyes_.clear();
     wanted_ = wanted;
+    on_gpu_ = choose_device("", "").gpu.has_value();
     coarse_is_full_ = false;
     pictures_ = {};
     eyes_ = seen(library_, wanted);
@@ -44,7 +46,7 @@ std::string Drawing::beside_problem() const {
 
 // The cost of all eyes; photographs beside them add a similar cost, which the pace learns.
 double Drawing::coarse_cost(const EyeDisplay& eye, double scale) const {
-    const Display d = coarse_view(eye.display, eye.geometry, scale);
+    const Display d = coarse_view(eye.display, eye.geometry, scale, on_gpu_);
     return double(eyes_.size()) *
            (render_cost(d, resolve(d), true) + jpeg_cost * double(d.camera.resolution[0]) * double(d.camera.resolution[1]));
 }
@@ -112,7 +114,7 @@ Drawing::Frames Drawing::pictures(const std::vector<Lit>& all, Quality quality, 
     Writing writing(job);
     for (const Lit& lit : all) {
         const bool rest = quality == Quality::final;
-        const Display display = rest ? lit.seen.display : coarse_view(lit.seen.display, lit.seen.geometry, scale);
+        const Display display = rest ? lit.seen.display : coarse_view(lit.seen.display, lit.seen.geometry, scale, on_gpu_);
         const Geometry geometry = rest ? lit.seen.geometry : resolve(display);
         RenderOptions options;
         options.threads = threads_;

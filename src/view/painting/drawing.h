@@ -31,7 +31,7 @@ class Drawing {
     Frames coarse(Job&);
     /// Whether final() would keep the page waiting and fine() shows more than coarse() did.
     bool wants_fine() const;
-    /// Full size, one sample, the true panel.
+    /// Full size, as few samples as coarse() takes, the true panel.
     Frames fine(Job&);
     /// The same picture as lfdsim render.
     Frames final(Job&);
@@ -56,6 +56,7 @@ class Drawing {
     Wanted wanted_;
     MemoryBudget::Claim pictures_;
     std::vector<EyeDisplay> eyes_;
+    bool on_gpu_ = false;          // pictures are rendered there
     bool coarse_is_full_ = false;  // the last coarse picture of this state has its full size and the true panel
     Pace coarse_pace_{1}, final_pace_{1}, panel_pace_{1};
     int coarse_scale_ = 0, coarse_panel_ = 0;  // the last choices

@@ -62,15 +62,15 @@ std::optional<EyeDisplay> with_coarse_panel(const EyeDisplay& one, int divisor) 
     return coarse;
 }
 
-Display coarse_view(Display d, const Geometry& g, double scale) {
+Display coarse_view(Display d, const Geometry& g, double scale, bool on_gpu) {
     for (std::int64_t& n : d.camera.resolution) n = std::max<std::int64_t>(1, std::llround(scale * double(n)));
     d.camera.fov_deg.reset();
     d.camera.frame_width_mm = g.frame_width_mm;
     d.camera.pixel_filter = PixelFilter::center;
     d.camera.pupil_diameter_mm.reset();
-    d.render.estimator = Estimator::filtered;
+    d.render.estimator = on_gpu ? Estimator::point : Estimator::filtered;
     // A turned array is rendered with point samples: a single one would show only noise.
-    d.render.samples = estimator_of(d) == Estimator::filtered ? 1 : 4;
+    d.render.samples = on_gpu ? 64 : estimator_of(d) == Estimator::filtered ? 1 : 4;
     return d;
 }
 

@@ -28,7 +28,8 @@ std::vector<EyeDisplay> seen(const Library&, const Wanted&);
 std::optional<EyeDisplay> with_coarse_panel(const EyeDisplay&, int divisor);
 
 /// The fastest view of the same: columns and rows times `scale`, 0 .. 1, the fewest possible samples, and neither pixel filter nor
-/// pupil, which would need many. Its geometry must be resolved again.
-Display coarse_view(Display, const Geometry&, double scale);
+/// pupil, which would need many. `on_gpu`: a GPU renders it, which takes points alone and has time for many. Its geometry must be
+/// resolved again.
+Display coarse_view(Display, const Geometry&, double scale, bool on_gpu);
 
 }  // namespace lfdsim::view
