@@ -34,7 +34,6 @@ FALSE_ALARM = 1e-8   # probability that chance alone fails one blurred compariso
 COMPARED = 0.5       # the least share of a coloured picture that must be off the edges, by a sample of its pixels
 MANY = 300           # so many pixels near edges that few directions do not find are something else
 NEAR_ENOUGH = 0.015  # root mean square over a picture by which filtered light may differ from exact means, beyond chance
-MOST_STRATA = 3844   # samples of the filtered estimator
 QUICK = {"camera": {"resolution": [64, 36]}}  # of --quick
 
 
@@ -214,14 +213,14 @@ def exact_means_of(text, count, pattern):
     return display, image, *colour.sampled(display, colour.decode(image, display.panel.encoding), count, seed=1)
 
 
-def filtered(harness, description, count, pattern):
-    """The filtered estimator against our means: root mean square over the picture, less what chance adds to ours, at most NEAR_ENOUGH and what as many
-    random samples would err."""
+def filtered(harness, description, count, pattern, strata):
+    """The filtered estimator with `strata` samples a pixel against our means: root mean square over the picture, less what chance adds to ours, at most
+    NEAR_ENOUGH and what as many random samples would err."""
     _, image, wanted, variance = exact_means(harness.told(description), count, pattern)
-    got = harness.render(description, image, "--samples", MOST_STRATA, estimator="filtered")
+    got = harness.render(description, image, "--samples", strata, estimator="filtered")
     shape, got = got.shape, got.reshape(-1, 3)
     beyond = np.sqrt(max(((got - wanted) ** 2).mean() - variance.mean() / count, 0))
-    allowed = np.sqrt(NEAR_ENOUGH**2 + variance.mean() / MOST_STRATA)
+    allowed = np.sqrt(NEAR_ENOUGH**2 + variance.mean() / strata)
     found = f"root mean square {beyond:.4f} of {allowed:.4f} allowed, largest {np.abs(got - wanted).max():.3f}"
     return bool(beyond <= allowed), found, {"got": got.reshape(shape), "wanted": wanted.reshape(shape)}
 
@@ -287,7 +286,7 @@ def main():
         todo.append((f"{name}, checker", lambda d=description: single_rays(harness, d, "checker", None)))
     for name, description in {**errors_cases.COLOURED_SHORT, **({} if options.quick else errors_cases.COLOURED_MORE)}.items():
         todo.append((f"{name}, noise", lambda d=description: single_rays(harness, d, "noise", 0.997, COMPARED)))
-    count, samplings = (2048, ["sobol"]) if options.quick else (16384, ["random", "sobol"])
+    count, strata, samplings = (2048, 576, ["sobol"]) if options.quick else (16384, 3844, ["random", "sobol"])
     more = {} if options.quick else colour_cases.BLURRED_MORE
     fine = {**colour_cases.FINE_SHORT, **({} if options.quick else colour_cases.FINE_MORE)}
     wrong = {**errors_cases.BLURRED_SHORT, **({} if options.quick else errors_cases.BLURRED_MORE)}
@@ -297,7 +296,7 @@ def main():
         for s in samplings:
             todo.append((f"{name}, {s}", lambda d=description, s=s, p=pattern: blurred(harness, d, count, s, p)))
         if name in coloured:
-            todo.append((f"{name}, filtered", lambda d=description, p=pattern: filtered(harness, d, count, p)))
+            todo.append((f"{name}, filtered", lambda d=description, p=pattern: filtered(harness, d, count, p, strata)))
     for name, compare in todo:
         if harness.wanted(name):
             harness.check(name, compare)
