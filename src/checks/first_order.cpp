@@ -23,12 +23,13 @@ double rounded(double x) {
 
 namespace {
 
-struct Limit {
+/// The range of a number of a design request.
+struct DesignLimit {
     double DesignRequest::*field;
     const char* name;
     Range range;
 };
-constexpr Limit limits[] = {
+constexpr DesignLimit limits[] = {
     {&DesignRequest::panel_inch, "--panel-inch", {0.1, 2000}},
     {&DesignRequest::fov_deg, "--fov-deg", {1, 120}},
     {&DesignRequest::distance_mm, "--distance-mm", {5, 1e5}},
@@ -40,7 +41,7 @@ std::vector<Problem> out_of_range(const DesignRequest& r) {
     const auto check = [&](const char* name, double value, const Range& range) {
         if (!range.contains(value)) all.push_back({name, fmt::format("is {}; allowed is {}", value, range.text())});
     };
-    for (const Limit& l : limits) check(l.name, r.*l.field, l.range);
+    for (const DesignLimit& l : limits) check(l.name, r.*l.field, l.range);
     for (const std::int64_t n : r.pixels)
         if (all.empty() || all.back().where != "--pixels") check("--pixels", double(n), pixel_range);
     if (r.depth_mm) check("--depth-mm", *r.depth_mm, depth_range);

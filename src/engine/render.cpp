@@ -79,11 +79,11 @@ Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
 }
 
 /// Each region by what is chosen for it.
-Done render_chosen(Kernel kernel, int threads, Choice& choice, Job& job) {
+Done render_chosen(Kernel kernel, int threads, EstimatorChoice& choice, Job& job) {
     return on_threads(threads, [&]() -> Done {
         Work& work = choice.work();
         const Tile& whole = work.tile;
-        constexpr int side = Choice::region_side;
+        constexpr int side = EstimatorChoice::region_side;
         const int left = whole.x0 / side, top = whole.y0 / side, columns = (whole.x1 - 1) / side + 1 - left,
                   rows = (whole.y1 - 1) / side + 1 - top;
         std::vector<RegionChoice> chosen(std::size_t(columns) * std::size_t(rows));
@@ -164,7 +164,7 @@ std::optional<Rendering> render_points_on_gpu(Work& work, const ChosenDevice& de
 }
 
 /// Each region by the estimator that a measurement chooses. The job's stage is the caller's.
-Rendering render_chosen(Choice& choice, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
+Rendering render_chosen(EstimatorChoice& choice, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
     timed(choice.work(), options, [&](Rendering& result) -> std::optional<Done> {
         result.kernel = kernel_name;
         result.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
@@ -234,7 +234,7 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
             return render(work, kernel.name, kernel.run, options, job);  // the same bits
         }
         if (estimator_of(display) == Estimator::filtered && !options.rough) {
-            Choice choice(display, there, planes, options);
+            EstimatorChoice choice(display, there, planes, options);
             begin_stage(choice.work(), 1, job);
             return render_chosen(choice, kernel.name, kernel.run, options, job);
         }

@@ -189,13 +189,13 @@ TEST(LensTrace, FindsTheLightOfFarAndStrangeLenses) {
 }
 
 TEST(LensTrace, DiffuserTurnsEachRay) {
-    const std::vector<Line> fan{{-1, 0.1}, {0, 0}, {2, -0.2}};
+    const std::vector<FanRay> fan{{-1, 0.1}, {0, 0}, {2, -0.2}};
     const double z = 30, angle = 0.02;
-    const std::vector<Line> spread = diffused(fan, z, angle);
+    const std::vector<FanRay> spread = diffused(fan, z, angle);
     EXPECT_NEAR(width_at(spread, z).mm, width_at(fan, z).mm, 1e-12);
     for (const double at : {-20., 100.}) {
         double low = 1e9, high = -1e9;
-        for (const Line& l : fan)
+        for (const FanRay& l : fan)
             for (const double turn : {-angle, 0., angle}) {
                 const double x = l.at + l.slope * z + (at - z) * std::tan(std::atan(l.slope) + turn);
                 low = std::min(low, x);

@@ -202,8 +202,8 @@ TEST(Mtf, ACurveThatGrazesTheLevelIsAsUnsureAsItIs) {
         }
         return m.below(0.5);
     };
-    const Crossing clear = grazing(0.02, 0.2), above = grazing(0.002, 0.2), below = grazing(-0.002, 0.2),
-                   perhaps = grazing(0.002, 0.51), never = grazing(0.02, 0.51);
+    const LimitingFrequency clear = grazing(0.02, 0.2), above = grazing(0.002, 0.2), below = grazing(-0.002, 0.2),
+                            perhaps = grazing(0.002, 0.51), never = grazing(0.02, 0.51);
     EXPECT_NEAR(clear.found.value, 3.25, 1e-12);
     EXPECT_LT(clear.found.error, 0.02);
     EXPECT_NEAR(above.found.value, 3.25, 1e-12);

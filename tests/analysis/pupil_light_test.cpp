@@ -76,7 +76,7 @@ double traced(const Display& d, const Geometry& g, double eye) {
 }
 
 double area_of(const ApertureShape& shape, const Lattice<double>& l) {
-    if (shape.form == ApertureShape::Form::slit) return shape.width_mm[0] * l.pitch[1];
+    if (shape.form == ApertureShape::ApertureForm::slit) return shape.width_mm[0] * l.pitch[1];
     constexpr int steps = 500;
     int within = 0;
     const double w = shape.extent_mm(0), h = shape.extent_mm(1);
@@ -101,7 +101,7 @@ TEST(PupilLight, ShareOfTheCellIsWhatLinesOfSightFind) {
         if (n % 4 == 0) EXPECT_NEAR(luminance_over_panel(d, g, 1e4).value, found, 0.004) << n;
         ++checked;
         inside += g.pupil.inner_z.has_value();
-        cut += shape.form == ApertureShape::Form::cut;
+        cut += shape.form == ApertureShape::ApertureForm::cut;
     }
     EXPECT_GT(checked, 12);
     EXPECT_GT(inside, 3);
@@ -118,7 +118,7 @@ TEST(PupilLight, WavesOverCutCells) {
         g.pupil = {lattice == LatticeKind::square ? 4.7 : 4.3, {}, 1};
         g.clear_aperture_mm = {8, 8};
         const ApertureShape shape = aperture_shape(d, g);
-        ASSERT_EQ(shape.form, ApertureShape::Form::cut);
+        ASSERT_EQ(shape.form, ApertureShape::ApertureForm::cut);
         constexpr int steps = 800;
         const double side = 10;
         const std::array<std::array<double, 2>, 3> waves{{{0.05, 0.02}, {0.2, -0.13}, {0.0, 0.4}}};

@@ -43,7 +43,7 @@ TEST(SharpRange, HoldsWhereTheSpotIsNarrowEnough) {
 TEST(SharpRange, ByTheLensIsTheIntervalOfABruteForceSearch) {
     for (const auto& [name, d] : all_lenses()) {
         const Geometry g = resolve(d);
-        const std::vector<Line> fan = fans(LensTrace(d, g), {0, 0}, 1001).meridional;
+        const std::vector<FanRay> fan = fans(LensTrace(d, g), {0, 0}, 1001).meridional;
         const double pitch = d.array.pitch_mm[0], limit = std::max(pitch, width_at(fan, 0).mm);
         const auto [low, high] = where_narrow(fan, pitch);
         EXPECT_LE(low, 0) << name;

@@ -21,7 +21,7 @@ Result sharp_depths(const Display& d, double wavelength_nm = 550) {
     return result;
 }
 
-std::vector<Line> axial_fan(const Display& d) { return fans(LensTrace(d, resolve(d)), {0, 0}, 1001).meridional; }
+std::vector<FanRay> axial_fan(const Display& d) { return fans(LensTrace(d, resolve(d)), {0, 0}, 1001).meridional; }
 
 double end(const Json& interval, int side) { return interval.at(std::size_t(side)).get<double>(); }
 
@@ -64,14 +64,14 @@ TEST(SpotDepth, CountsFromTheVertexPlane) {
 TEST(SpotDepth, IsTheIntervalOfABruteForceSearch) {
     for (const auto& [name, d] : all_lenses()) {
         const Geometry g = resolve(d);
-        const std::vector<Line> fan = axial_fan(d);
+        const std::vector<FanRay> fan = axial_fan(d);
         const double pixel_slope = d.panel.pixel_pitch_mm / g.gap_mm, airy = 2e-3;
         for (const double airy_slope : {0., airy}) {
             const SharpDepths depths = where_sharp(fan, pixel_slope, airy_slope);
             double least = infinity;
             for (double z = -1000; z <= 1000; z += 0.37) {
                 double low = infinity, high = -infinity;
-                for (const Line& l : fan) {
+                for (const FanRay& l : fan) {
                     low = std::min(low, l.at + l.slope * z);
                     high = std::max(high, l.at + l.slope * z);
                 }

@@ -15,7 +15,7 @@ constexpr double side = 200;
 
 /// Corners of the first path whose attributes contain a text, pixels from the square's middle, y up.
 std::vector<Point> corners_of(const Display& d, const std::string& attribute) {
-    Drawing drawing(side, side, "cells");
+    SvgDrawing drawing(side, side, "cells");
     draw_front(drawing, {0, 0}, side, d, resolve(d));
     const std::string svg = drawing.svg();
     const std::regex path("<path d=\"M([^\"z]*)z\" ([^>]*)/>");

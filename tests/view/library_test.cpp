@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-using Kind = Library::Kind;
+using FileKind = Library::FileKind;
 
 const std::string ready_displays = LFDSIM_SOURCE_DIR "/displays";
 
@@ -68,9 +68,9 @@ Problem problem_of(Call call) {
 
 TEST_F(LibraryTest, FindsFilesOfTheFolderAlone) {
     const Library all = library();
-    EXPECT_TRUE(fs::equivalent(all.file("mine.toml", Kind::display), folder / "mine.toml"));
-    EXPECT_TRUE(fs::equivalent(all.file("models/monkey.blend", Kind::model), folder / "models/monkey.blend"));
-    EXPECT_TRUE(fs::equivalent(all.file("in.toml", Kind::display), folder / "mine.toml"));
+    EXPECT_TRUE(fs::equivalent(all.file("mine.toml", FileKind::display), folder / "mine.toml"));
+    EXPECT_TRUE(fs::equivalent(all.file("models/monkey.blend", FileKind::model), folder / "models/monkey.blend"));
+    EXPECT_TRUE(fs::equivalent(all.file("in.toml", FileKind::display), folder / "mine.toml"));
     const std::string secret = (root / "secret.toml").string(), nul("mine.toml\0x", 11);
     for (const std::string& name : {std::string(),
                                     std::string("."),
@@ -95,7 +95,7 @@ TEST_F(LibraryTest, FindsFilesOfTheFolderAlone) {
                                     std::string("bad\xff.toml"),
                                     std::string(100000, 'a'),
                                     std::string("nothing.toml")})
-        EXPECT_THROW(static_cast<void>(all.file(name, Kind::display)), InputError) << name.substr(0, 100);
+        EXPECT_THROW(static_cast<void>(all.file(name, FileKind::display)), InputError) << name.substr(0, 100);
 }
 
 TEST_F(LibraryTest, NewFilesAreDescriptionsInTheFolder) {
@@ -115,11 +115,11 @@ TEST_F(LibraryTest, ReadsNothingOfOtherKinds) {
     const std::string secret = "hunter2";
     for (const char* name : {"notes.md", "key.pem", "settings.toml", "broken_settings.toml", "list.toml", "photo.png", "cup.obj"})
         std::ofstream(folder / name) << "password = \"" << secret << "\"\n[" << secret << "]\n= = " << secret << "\n";
-    for (const Kind kind : {Kind::display, Kind::model, Kind::picture})
+    for (const FileKind kind : {FileKind::display, FileKind::model, FileKind::picture})
         for (const char* name :
              {"notes.md", "key.pem", "settings.toml", "broken_settings.toml", "notes.txt", "photo.png", "cup.obj"}) {
-            if ((kind == Kind::picture && name == std::string("photo.png")) ||
-                (kind == Kind::model && name == std::string("cup.obj")))
+            if ((kind == FileKind::picture && name == std::string("photo.png")) ||
+                (kind == FileKind::model && name == std::string("cup.obj")))
                 continue;
             const Problem problem = problem_of([&] { static_cast<void>(all.file(name, kind)); });
             EXPECT_THAT(problem.what, AnyOf(HasSubstr("those end in"), HasSubstr("those begin with schema = 1"))) << name;
@@ -293,7 +293,9 @@ TEST(KeysOfFiles, AreAllTextsButLabels) {
 // A link out of the folder tells nothing of what is there.
 TEST_F(LibraryTest, LinksOutTellNothing) {
     const Library all = library();
-    const auto what = [&](const char* name) { return problem_of([&] { static_cast<void>(all.file(name, Kind::display)); }).what; };
+    const auto what = [&](const char* name) {
+        return problem_of([&] { static_cast<void>(all.file(name, FileKind::display)); }).what;
+    };
     EXPECT_EQ(what("up/secret.toml"), what("up/nothing.toml"));
     EXPECT_EQ(what("out.toml"), what("nothing.toml"));
 }

@@ -29,7 +29,7 @@ ChannelPixels::ChannelPixels(const Display& d, std::size_t channel) : size_{doub
 }
 
 std::optional<ChannelPixels::Shining> ChannelPixels::at(const Place& place) const {
-    for (const Part& part : parts_) {
+    for (const ChannelRect& part : parts_) {
         Place corner{};
         bool inside = true;
         for (std::size_t k = 0; k < 2; ++k) {

@@ -50,12 +50,13 @@ class ChannelPixels {
     double gain() const;
 
   private:
-    struct Part {
+    /// A shining rectangle of the channel and the points for which its content is made.
+    struct ChannelRect {
         LitPart lit;
         Place shown, pixel;  // from the corner of the cell that it lies in
     };
     Place size_;  // of the panel
-    std::vector<Part> parts_;
+    std::vector<ChannelRect> parts_;
 };
 
 }  // namespace lfdsim

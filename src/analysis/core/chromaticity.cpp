@@ -49,11 +49,11 @@ Distances distances(const std::vector<Chromaticity>& from_mean, const std::vecto
     return found;
 }
 
-/// Whether parts have at least a tenth of the mean luminance, and whether that is sure.
-struct Lit {
+/// Whether a part has at least a tenth of the mean luminance, and whether that is sure.
+struct LitTest {
     bool lit, sure;
 };
-std::vector<Lit> lit_or_dark(const std::vector<ColourSums>& parts, const std::vector<double>& weights) {
+std::vector<LitTest> lit_or_dark(const std::vector<ColourSums>& parts, const std::vector<double>& weights) {
     std::vector<Sums> luminance(parts.size(), Sums{});
     Sums limit{};
     double whole = 0;
@@ -64,7 +64,7 @@ std::vector<Lit> lit_or_dark(const std::vector<ColourSums>& parts, const std::ve
             limit[set] += dark_part * weights[k] * luminance[k][set] / whole;
         }
     const bool any = total(limit) > 0;
-    std::vector<Lit> found;
+    std::vector<LitTest> found;
     for (const Sums& of : luminance) {
         Sums above{};
         for (std::size_t set = 0; set < limit.size(); ++set) above[set] = of[set] - limit[set];
@@ -94,7 +94,7 @@ Chromaticity chromaticity(const std::array<double, 3>& rgb) {
 }
 
 ColourSpread colour_spread(const std::vector<ColourSums>& parts, const std::vector<double>& weights) {
-    const std::vector<Lit> all = lit_or_dark(parts, weights);
+    const std::vector<LitTest> all = lit_or_dark(parts, weights);
     const auto lit_parts = [&](std::size_t other) {  // with that one of them taken for the other; parts.size(): none
         std::vector<std::size_t> number;
         for (std::size_t k = 0; k < parts.size(); ++k)

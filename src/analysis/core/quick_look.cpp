@@ -83,13 +83,14 @@ std::optional<TracedAndTheory> between_eyes_percent(const Display& as_made, cons
     const ParaxialLines paraxial(d, g, *eye);
     const Pickup pickup(d, g);
     const double per_mm = (pickup.scale - 1) / g.gap_mm;  // 1/D' of the viewer that the elemental images are made for
-    struct Light {
+    // Light of the own eye's image and of the other eye's.
+    struct CrosstalkSums {
         double own = 0, other = 0;
         int lines = 0;
         double percent() const { return own > 0 ? 100 * other / own : other > 0 ? infinity : nan; }
     } traced, in_theory;
     // A viewer at x is meant to see the slope x/D' of the lines through the lenses, counted from the screen's middle.
-    const auto add = [&](Light& light, double x, double y, double much) {
+    const auto add = [&](CrosstalkSums& light, double x, double y, double much) {
         const NodalLine line = pickup.line(x, y);
         if (!line.owned) return;
         const double mx = line.mx + line.x * per_mm, my = line.my + line.y * per_mm;
@@ -113,13 +114,13 @@ std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm
     if (d.lens.type() == LensType::pinhole) return {};
     const LensTrace lens(d, g);
     Fans rims = fans(lens, {0, 0}, fan_of_lens);
-    std::vector<Line> fan = std::move(rims.meridional), light;
+    std::vector<FanRay> fan = std::move(rims.meridional), light;
     if (g.lattice.strips) {  // steep light along strips, which no eye sees, meets them as if they were stronger
-        std::erase_if(fan, [&](const Line& line) { return !(std::abs(line.at) <= stop_mm); });
+        std::erase_if(fan, [&](const FanRay& line) { return !(std::abs(line.at) <= stop_mm); });
         light = fan;
     } else {
         fan.insert(fan.end(), rims.sagittal.begin(), rims.sagittal.end());
-        std::erase_if(fan, [&](const Line& line) { return !(std::abs(line.at) <= stop_mm); });
+        std::erase_if(fan, [&](const FanRay& line) { return !(std::abs(line.at) <= stop_mm); });
         for (const LensRay& ray : bundle(lens, {0, 0}, rays_of_lens).rays) {
             const double r = std::hypot(ray.x, ray.y);
             if (!(r <= stop_mm)) continue;
@@ -133,11 +134,11 @@ std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm
     const double L = theory(d, g).central_depth_mm, per_mm = std::isinf(L) ? 0 : 1 / L,
                  pixel_slope = d.panel.pixel_pitch_mm / g.gap_mm;
     double squares = 0, from = infinity, to = -infinity;
-    for (const Line& line : light) {  // over its depth z a ray passes at x/z + m
+    for (const FanRay& line : light) {  // over its depth z a ray passes at x/z + m
         const double at = line.at * per_mm + line.slope;
         squares += at * at;
     }
-    for (const Line& line : fan) {
+    for (const FanRay& line : fan) {
         from = std::min(from, line.at * per_mm + line.slope);
         to = std::max(to, line.at * per_mm + line.slope);
     }
@@ -157,12 +158,13 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     if (!eye || d.panel.subpixels == SubpixelLayout::none) return {};
     constexpr ChannelWeights mixtures[] = {{1 - luminance_weights[0], -luminance_weights[1], -luminance_weights[2]},
                                            {-luminance_weights[0], -luminance_weights[1], 1 - luminance_weights[2]}};
-    struct Wave {
+    // A beat by theory and the traced light's sum at its frequency.
+    struct BeatSum {
         Beat beat;
         WhitePanel white;
         std::complex<double> sum = 0;
     };
-    std::vector<Wave> waves;
+    std::vector<BeatSum> waves;
     for (const ChannelWeights& weights : mixtures)
         if (const auto beat = MoireTheory(d, g, (*eye)[2], weights).strongest(eye_for_colour))
             waves.push_back({*beat, WhitePanel(d.panel, weights)});
@@ -185,13 +187,13 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
         light += s.light;
         const double column = s.x / d.panel.pixel_pitch_mm + 0.5 * double(d.panel.pixels[0]),
                      row = 0.5 * double(d.panel.pixels[1]) - s.y / d.panel.pixel_pitch_mm;
-        for (Wave& w : waves)
+        for (BeatSum& w : waves)
             w.sum += s.light * w.white.at(column, row) *
                      std::polar(1., -2 * pi * (w.beat.frequency[0] * at[0] + w.beat.frequency[1] * at[1]));
     }
     if (!(light > 0)) return {};
     std::optional<ColourWave> strongest;
-    for (const Wave& w : waves) {
+    for (const BeatSum& w : waves) {
         const bool uniform = period_mm(w.beat.frequency) > 2 * std::min(g.panel_width_mm, g.array_width_mm);
         const double fine = mm_per_degree(away) / period_mm(w.beat.frequency),
                      contrast = (uniform ? 1 : 2) * std::abs(w.sum) / light;

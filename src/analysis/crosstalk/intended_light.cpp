@@ -28,7 +28,7 @@ LightPart MeantLight::between(double low, double high) const {
     };
     LightPart part;
     for (std::size_t k = 0; k < rays_.size(); ++k) {
-        for (const Ray& ray : rays_[k]) part.light[k] += share(ray.slope) * double(ray.light);
+        for (const InnerRay& ray : rays_[k]) part.light[k] += share(ray.slope) * double(ray.light);
         for (const BorderRay& ray : on_borders_[k]) {
             double least = 1, most = 0;
             for (const double slope : ray.slopes.all()) {

@@ -38,15 +38,17 @@ class MeantLight {
     double missed() const { return 3 * brightest_ / total(all().light); }
 
   private:
-    struct Ray {
+    /// A line of sight that ends within an elemental image: the slope that its light is meant for.
+    struct InnerRay {
         double slope;
         float light;  // sums of floats in double are exact, so that mirrored displays have the same sums
     };
+    /// A line of sight that ends on the border of elemental images.
     struct BorderRay {
-        MeantPanel::Slopes slopes;
+        MeantPanel::ViewerSlopes slopes;
         float light;
     };
-    std::array<std::vector<Ray>, independent_sets> rays_;
+    std::array<std::vector<InnerRay>, independent_sets> rays_;
     std::array<std::vector<BorderRay>, independent_sets> on_borders_;
     double brightest_ = 0;
 };

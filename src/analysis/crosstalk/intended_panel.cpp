@@ -27,13 +27,13 @@ MeantPanel::MeantPanel(const Display& d, const Geometry& g, ContentSampling samp
     for (std::size_t channel = 0; channel < channels; ++channel) pixels_.emplace_back(made, channel);
 }
 
-void MeantPanel::Slopes::add(double slope) {
+void MeantPanel::ViewerSlopes::add(double slope) {
     constexpr double rounding = 1e-9;
     const auto same = [&](double other) { return std::isnan(slope) ? std::isnan(other) : std::abs(other - slope) <= rounding; };
     if (count_ < slopes_.size() && std::ranges::none_of(all(), same)) slopes_[count_++] = slope;
 }
 
-std::optional<MeantPanel::Meant> MeantPanel::at(double x_mm, double y_mm, const ChannelWeights& weights) const {
+std::optional<MeantPanel::ShiningPoint> MeantPanel::at(double x_mm, double y_mm, const ChannelWeights& weights) const {
     const ChannelPixels::Place place{x_mm / pixel_mm_ + 0.5 * size_[0], 0.5 * size_[1] - y_mm / pixel_mm_};
     for (std::size_t channel = 0; channel < pixels_.size(); ++channel) {
         const double weight = pixels_.size() > 1 ? weights[channel] : std::accumulate(weights.begin(), weights.end(), 0.);
@@ -42,9 +42,9 @@ std::optional<MeantPanel::Meant> MeantPanel::at(double x_mm, double y_mm, const 
         if (!shining) continue;  // subpixels do not overlap: the first that shines is the only one
         // Where pitches are known to a nanometre, a border n lenses from the middle is known to n/2 of them.
         const Point shown = mm(shining->shown);
-        const Slopes found = slopes(shown, 0.5e-6 * (1 + std::hypot(shown[0], shown[1]) / pickup_.lattice().pitch[0]));
+        const ViewerSlopes found = slopes(shown, 0.5e-6 * (1 + std::hypot(shown[0], shown[1]) / pickup_.lattice().pitch[0]));
         if (std::ranges::all_of(found.all(), [](double slope) { return std::isnan(slope); })) return {};
-        return Meant{weight * shining->brightness, found};
+        return ShiningPoint{weight * shining->brightness, found};
     }
     return {};
 }
@@ -56,7 +56,7 @@ double MeantPanel::share_on_borders() const {
         for (const ChannelPixels& pixels : pixels_) {
             const auto shining = pixels.at({(0.5 + 0.5 * c[0]) * size_[0], (0.5 + 0.5 * c[1]) * size_[1]});
             if (!shining) continue;
-            const Slopes found = slopes(mm(shining->shown), near_pixels * pixel_mm_);
+            const ViewerSlopes found = slopes(mm(shining->shown), near_pixels * pixel_mm_);
             const auto lenses = std::ranges::count_if(found.all(), [](double slope) { return !std::isnan(slope); });
             if (lenses > 0) all += shining->brightness;
             if (lenses > 1) on_borders += shining->brightness;
@@ -64,8 +64,8 @@ double MeantPanel::share_on_borders() const {
     return all > 0 ? on_borders / all : 0;
 }
 
-MeantPanel::Slopes MeantPanel::slopes(const Point& point, double margin) const {
-    Slopes found(slope(point));
+MeantPanel::ViewerSlopes MeantPanel::slopes(const Point& point, double margin) const {
+    ViewerSlopes found(slope(point));
     if (!pickup_.near_border(point[0], point[1], margin)) return found;
     constexpr int directions = 8;
     for (int k = 0; k < directions; ++k) {

@@ -19,9 +19,9 @@ class MeantPanel {
 
     /// The viewers that a point's light is meant for, as slopes. A point on the border of elemental images has those of each of
     /// their lenses, as rounding chooses one; NaN: that lens does not exist, and the point is dark.
-    class Slopes {
+    class ViewerSlopes {
       public:
-        explicit Slopes(double slope) : slopes_{slope} {}
+        explicit ViewerSlopes(double slope) : slopes_{slope} {}
         std::span<const double> all() const { return {slopes_.data(), count_}; }
         double chosen() const { return slopes_.front(); }
         void add(double slope);
@@ -30,13 +30,14 @@ class MeantPanel {
         std::array<double, 4> slopes_;
         std::size_t count_ = 1;
     };
-    struct Meant {
+    /// A shining point: its light and the viewers that it is meant for.
+    struct ShiningPoint {
         double light;  // with its channels' weights; 1 is the mean of white with weights of 1 together
-        Slopes slopes;
+        ViewerSlopes slopes;
     };
     /// Of a place on the panel, mm from its middle, in light of channels with these weights. Nothing: it is dark there, or no lens
     /// owns what shines.
-    std::optional<Meant> at(double x_mm, double y_mm, const ChannelWeights&) const;
+    std::optional<ShiningPoint> at(double x_mm, double y_mm, const ChannelWeights&) const;
 
     /// The viewers that a pixel's centre is meant for.
     std::optional<double> slope_of_pixel(double column, double row) const {
@@ -57,7 +58,7 @@ class MeantPanel {
     /// viewer at x, E from the principal plane, is meant to see the slope x/E. NaN: no lens owns the point.
     double slope(const Point&) const;
     /// Those of all lenses whose elemental images are nearer than `margin` mm.
-    Slopes slopes(const Point&, double margin) const;
+    ViewerSlopes slopes(const Point&, double margin) const;
 
     Pickup pickup_;
     std::vector<ChannelPixels> pixels_;  // of each channel, or of all three where they shine together

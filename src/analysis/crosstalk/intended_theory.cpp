@@ -11,7 +11,7 @@ std::optional<optics::Vec2<double>> in_aperture(const Geometry& g, const Apertur
     const Lattice<double>& l = g.lattice;
     const auto number = [&](std::size_t k) { return std::min(std::floor((0.5 + 0.5 * c[4 + k]) * l.count[k]), l.count[k] - 1); };
     const auto axis = optics::axis_in_array(l, optics::Cell<double>{number(0), number(1)});
-    const double height = shape.form == ApertureShape::Form::slit ? g.array_height_mm : shape.extent_mm(1);
+    const double height = shape.form == ApertureShape::ApertureForm::slit ? g.array_height_mm : shape.extent_mm(1);
     const double x = 0.5 * shape.extent_mm(0) * c[0], y = 0.5 * height * c[1];
     if (!shape.holds(x, y)) return {};
     return optics::Vec2<double>{axis.x + x, axis.y + y};

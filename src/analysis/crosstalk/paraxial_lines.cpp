@@ -21,17 +21,17 @@ double ParaxialLines::angle(double number, std::size_t axis) const {
     return display_.diffuser->profile == Profile::box ? 0.5 * full * number : sigma * std::numbers::sqrt2 * optics::erfinv(number);
 }
 
-std::optional<ParaxialLines::Slopes> ParaxialLines::slopes(double x, double y, double a, double b) const {
+std::optional<ParaxialLines::LineSlopes> ParaxialLines::slopes(double x, double y, double a, double b) const {
     const double away = eye_[2] - geometry_.rear_principal_mm;
     const std::array<double, 2> slope{(eye_[0] - x) / away, (eye_[1] - y) / away};  // dx/dz, dy/dz, as those below
-    if (!display_.diffuser) return Slopes{slope, slope};
+    if (!display_.diffuser) return LineSlopes{slope, slope};
     // About y, then about x, as of the direction down (-slope, -1)
     const double alpha = angle(a, 0), beta = angle(b, 1);
     const double to_x = -std::cos(alpha) * slope[0] - std::sin(alpha), level = std::sin(alpha) * slope[0] - std::cos(alpha),
                  to_y = -std::cos(beta) * slope[1] - std::sin(beta) * level,
                  to_z = -std::sin(beta) * slope[1] + std::cos(beta) * level;
     if (!(to_z < -1e-3)) return {};
-    return Slopes{slope, {to_x / to_z, to_y / to_z}};
+    return LineSlopes{slope, {to_x / to_z, to_y / to_z}};
 }
 
 std::optional<optics::Vec2<double>> ParaxialLines::aim_at(double x, double y, double a, double b) const {

@@ -36,10 +36,10 @@ class ParaxialLines {
     bool on_panel(const optics::Vec2<double>&) const;
 
   private:
-    struct Slopes {
+    struct LineSlopes {
         std::array<double, 2> before, turned;  // by the diffuser: dx/dz, dy/dz
     };
-    std::optional<Slopes> slopes(double x, double y, double a, double b) const;
+    std::optional<LineSlopes> slopes(double x, double y, double a, double b) const;
     double angle(double number, std::size_t axis) const;  // of the diffuser, radians
     /// How far aside, per slope, lines go below the lenses, along the array's x and y.
     optics::Vec2<double> reach_mm(double slope_squared) const;

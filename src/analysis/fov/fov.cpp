@@ -26,18 +26,18 @@ Interval interval(const OwnRange& r) {
 }
 
 /// Where a curve of SSIM keeps the published rules, and where it falls half-way.
-struct Rules {
+struct SsimIntervals {
     Interval ssim, gradient, half_way;
     double error;  // of the curve
 
-    Rules(const Curve& c, const Falls& expected)
+    SsimIntervals(const Curve& c, const Falls& expected)
         : ssim(where_at_least(c, 0, least_view_ssim)),
           gradient(where_steady(c, 0, most_slope_per_deg)),
           half_way(where_it_falls(c, expected)),
           error(c.error) {}
 };
 
-void add_rules(Result& result, Json& json, const std::string& path, const Rules& rules) {
+void add_rules(Result& result, Json& json, const std::string& path, const SsimIntervals& rules) {
     result.add(path + "ssim_rule_deg", figure_of(rules.ssim));
     result.add(path + "gradient_rule_deg", figure_of(rules.gradient));
     result.add(path + "ssim_half_way_deg", figure_of(rules.half_way));
@@ -69,7 +69,7 @@ void add_likeness(Result& result, const std::string& name, const std::string& wa
     FigureLine edge = line("edge", "where the scene's share in the view falls half-way; beside it the edge by geometry");
     edge.theory = std::vector{expected.low, expected.high};
     result.add(name + ".gradient_edge_deg", figure_of(where_it_falls(curves.share, expected)), edge);
-    const Rules content(curves.content, expected), screen(curves.screen, expected);
+    const SsimIntervals content(curves.content, expected), screen(curves.screen, expected);
     Json& json = result.figures[name];
     add_rules(result, json, name + ".", content);
     add_rules(result, json["content"], name + ".content.", content);

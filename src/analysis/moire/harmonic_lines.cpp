@@ -24,7 +24,7 @@ constexpr double surely = 4;            // standard deviations
 
 LineEnds::LineEnds(const WhiteSeen& screen, std::int64_t seed, const Vec3d& eye, const Window& window, Parts& parts)
     : width_mm(window.width_mm()), height_mm(window.height_mm()), paths(screen.paths()) {
-    std::vector<std::vector<std::vector<Line>>> by_row(paths.size(), std::vector<std::vector<Line>>(rows));
+    std::vector<std::vector<std::vector<LineEnd>>> by_row(paths.size(), std::vector<std::vector<LineEnd>>(rows));
     parts.run(rows, [&](int row) {
         for (int set = 0; set < independent_sets; ++set)
             for (int column = 0; column < rows; ++column) {
@@ -43,7 +43,7 @@ LineEnds::LineEnds(const WhiteSeen& screen, std::int64_t seed, const Vec3d& eye,
             }
     });
     for (std::size_t path = 0; path < paths.size(); ++path)
-        for (const std::vector<Line>& row : by_row[path]) paths[path].insert(paths[path].end(), row.begin(), row.end());
+        for (const std::vector<LineEnd>& row : by_row[path]) paths[path].insert(paths[path].end(), row.begin(), row.end());
 }
 
 HarmonicLines::HarmonicLines(const LineEnds& ends, const WhiteSeen& screen, std::size_t mixture)
@@ -52,7 +52,7 @@ HarmonicLines::HarmonicLines(const LineEnds& ends, const WhiteSeen& screen, std:
         const WhitePanel* white = screen.white(path, mixture);
         if (!white) continue;
         double light = 0, squares = 0;
-        for (const Line& line : ends.paths[path]) {
+        for (const LineEnd& line : ends.paths[path]) {
             light += line.light;
             squares += line.light * line.light;
         }
@@ -60,7 +60,7 @@ HarmonicLines::HarmonicLines(const LineEnds& ends, const WhiteSeen& screen, std:
         noise_[path] = std::sqrt(squares) / all_lines;
         const auto [highest_k, highest_l] = white->highest_order();
         const int last_k = std::min(highest_k, finest_order), last_l = std::min(highest_l, finest_order);
-        Cell cell{double(white->cell()[0]), double(white->cell()[1]), 32};
+        CellBins cell{double(white->cell()[0]), double(white->cell()[1]), 32};
         while (cell.squares < most_squares && cell.squares < 4 * std::max(last_k, last_l)) cell.squares *= 2;
         cells_[path] = cell;
         for (int k = -last_k; k <= last_k; ++k)
@@ -70,7 +70,7 @@ HarmonicLines::HarmonicLines(const LineEnds& ends, const WhiteSeen& screen, std:
     }
 }
 
-std::complex<double> HarmonicLines::of_line(const Line& line, const Harmonic& h, const Frequency& f) const {
+std::complex<double> HarmonicLines::of_line(const LineEnd& line, const Harmonic& h, const Frequency& f) const {
     return std::polar(
         line.light,
         2 * pi * (h.column * line.column + h.row * line.row - f[0] * line.x * ends_.width_mm - f[1] * line.y * ends_.height_mm));
@@ -79,17 +79,17 @@ std::complex<double> HarmonicLines::of_line(const Line& line, const Harmonic& h,
 WaveSums HarmonicLines::sums(const Harmonic& harmonic, const Frequency& f) const {
     WaveSums result(f, ends_.width_mm, ends_.height_mm);
     const std::complex<double> share = harmonic.c / double(lines_a_set);
-    for (const Line& line : ends_.paths[harmonic.path])
+    for (const LineEnd& line : ends_.paths[harmonic.path])
         result.add(line.set, int((line.x + 0.5) * WaveSums::side), int((line.y + 0.5) * WaveSums::side),
                    share * of_line(line, harmonic, f));
     return result;
 }
 
 // Lines are gathered in squares by where in the cell they end: the transform of the squares has what all harmonics give.
-std::vector<HarmonicLines::Part> HarmonicLines::parts(const Frequency& f, double least) const {
-    std::vector<Part> found;
+std::vector<HarmonicLines::HarmonicShare> HarmonicLines::parts(const Frequency& f, double least) const {
+    std::vector<HarmonicShare> found;
     for (std::size_t path = 0; path < cells_.size(); ++path) {
-        const Cell& cell = cells_[path];
+        const CellBins& cell = cells_[path];
         const int n = cell.squares;
         if (n == 0) continue;  // nothing of the mixture takes this path
         const auto square = [&](double place, double size) {
@@ -97,7 +97,7 @@ std::vector<HarmonicLines::Part> HarmonicLines::parts(const Frequency& f, double
             return std::min(int((turns - std::floor(turns)) * n), n - 1);
         };
         std::vector<std::complex<double>> plane(std::size_t(n) * std::size_t(n));
-        for (const Line& line : ends_.paths[path])
+        for (const LineEnd& line : ends_.paths[path])
             plane[std::size_t(square(line.row, cell.rows)) * std::size_t(n) + std::size_t(square(line.column, cell.columns))] +=
                 std::polar(line.light, -2 * pi * (f[0] * line.x * ends_.width_mm + f[1] * line.y * ends_.height_mm));
         fourier(plane, n);
@@ -108,15 +108,15 @@ std::vector<HarmonicLines::Part> HarmonicLines::parts(const Frequency& f, double
             if (mean > surely * noise_[path]) found.push_back({&h, std::abs(h.c) * mean});
         }
     }
-    std::ranges::stable_sort(found, std::greater(), &Part::amplitude);
+    std::ranges::stable_sort(found, std::greater(), &HarmonicShare::amplitude);
     return found;
 }
 
-std::optional<HarmonicLines::Wave> HarmonicLines::near(const Frequency& f, double contrast) const {
-    const std::vector<Part> found = parts(f, least_counted * contrast);
+std::optional<HarmonicLines::MeasuredWave> HarmonicLines::near(const Frequency& f, double contrast) const {
+    const std::vector<HarmonicShare> found = parts(f, least_counted * contrast);
     if (found.empty()) return {};
     const Harmonic& harmonic = *found.front().harmonic;
-    Wave wave{sums(harmonic, f), std::abs(harmonic.c) * noise_[harmonic.path], 0};
+    MeasuredWave wave{sums(harmonic, f), std::abs(harmonic.c) * noise_[harmonic.path], 0};
     const Frequency own = wave.sums.peak(f);
     double left_out = 0;  // squares
     for (std::size_t n = 1; n < found.size(); ++n) {

@@ -49,26 +49,27 @@ ColourMap moire_map(const WhiteSeen& screen, const Vec3d& eye, double side, Part
             greatest > 0 ? greatest : 1};
 }
 
-/// What is found, or what theory says.
-struct Wave {
+/// A moire wave as measured or by theory.
+struct WaveEstimates {
     Estimate period_mm, direction_deg, seen, contrast;
 };
 
 /// The figures of a wave, and their lines in the report.
 struct WaveFigure {
     const char* name;
-    Estimate Wave::*of;
+    Estimate WaveEstimates::*of;
     const char *label, *unit, *remark;
 };
-constexpr WaveFigure wave_figures[] = {
-    {"period_mm", &Wave::period_mm, "period", "mm", "in the vertex plane, of the strongest component after the eye's filter"},
-    {"direction_deg", &Wave::direction_deg, "direction", "deg", "of the wave vector, counter-clockwise from the right; 180 is 0"},
-    {"contrast", &Wave::seen, "contrast to the eye", "",
-     "Michelson's, times contrast sensitivity over its greatest (Mannos and Sakrison 1974)"},
-    {"contrast_unfiltered", &Wave::contrast, "contrast before the eye", "",
-     "theory: of lenses without aberrations; others blur the pixels"}};
+constexpr WaveFigure wave_figures[] = {{"period_mm", &WaveEstimates::period_mm, "period", "mm",
+                                        "in the vertex plane, of the strongest component after the eye's filter"},
+                                       {"direction_deg", &WaveEstimates::direction_deg, "direction", "deg",
+                                        "of the wave vector, counter-clockwise from the right; 180 is 0"},
+                                       {"contrast", &WaveEstimates::seen, "contrast to the eye", "",
+                                        "Michelson's, times contrast sensitivity over its greatest (Mannos and Sakrison 1974)"},
+                                       {"contrast_unfiltered", &WaveEstimates::contrast, "contrast before the eye", "",
+                                        "theory: of lenses without aberrations; others blur the pixels"}};
 
-void add_wave(Result& result, const std::string& path, const Wave& wave, bool with_errors, const std::string& missing) {
+void add_wave(Result& result, const std::string& path, const WaveEstimates& wave, bool with_errors, const std::string& missing) {
     for (const WaveFigure& f : wave_figures) {
         FigureValue value(wave.*f.of, missing);
         if (!with_errors) value.errors.clear();
@@ -76,7 +77,7 @@ void add_wave(Result& result, const std::string& path, const Wave& wave, bool wi
     }
 }
 
-void add_lines(Result& result, const Wave& found, const Wave& theory, const std::string& missing) {
+void add_lines(Result& result, const WaveEstimates& found, const WaveEstimates& theory, const std::string& missing) {
     for (const WaveFigure& f : wave_figures)
         result.add_line({found.*f.of, missing}, {.label = fmt::format("Moire of a white screen: {}", f.label),
                                                  .unit = f.unit,
@@ -84,14 +85,14 @@ void add_lines(Result& result, const Wave& found, const Wave& theory, const std:
                                                  .remark = f.remark});
 }
 
-Wave theory_wave(const std::optional<Beat>& beat) {
+WaveEstimates theory_wave(const std::optional<Beat>& beat) {
     if (!beat) return {{nan, 0}, {nan, 0}, {0, 0}, {0, 0}};
     return {{period_mm(beat->frequency), 0}, {direction_deg(beat->frequency), 0}, {beat->seen, 0}, {beat->contrast, 0}};
 }
 
 /// The pattern in the luminance or in one channel.
 struct Pattern {
-    Wave found{{nan, nan}, {nan, nan}, {0, 0}, {0, 0}};
+    WaveEstimates found{{nan, nan}, {nan, nan}, {0, 0}, {0, 0}};
     MoireSearch search;
     std::string missing;  // why there is no period
 };
@@ -149,7 +150,7 @@ Result measure_moire(Subject& s, Job& job) {
         "A grey screen has the same pattern: all of its pixels shine alike, so period, direction and contrast are those of white.");
     if (shines_all_over(d.panel)) {
         const std::string none = "the panel has no pixel structure: it has no subpixels, and panel.aperture_ratio is 1";
-        const Wave found = Pattern().found, theory = theory_wave({});
+        const WaveEstimates found = Pattern().found, theory = theory_wave({});
         add_wave(result, "white.", found, true, none);
         add_wave(result, "theory.", theory, false, none);
         add_lines(result, found, theory, none);

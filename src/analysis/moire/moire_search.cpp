@@ -72,14 +72,14 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
 }
 
 /// The wave near a candidate, without a set of lines.
-Beat beat_of(const HarmonicLines::Wave& wave, const Frequency& from, double mean, double mm_per_degree, int without) {
+Beat beat_of(const HarmonicLines::MeasuredWave& wave, const Frequency& from, double mean, double mm_per_degree, int without) {
     const Frequency f = wave.sums.peak(from, without);
     Beat beat{f, 2 * std::abs(wave.sums.wave(f, without)) / mean, 0};
     beat.seen = beat.contrast * eye_filter(std::hypot(f[0], f[1]) * mm_per_degree);
     return beat;
 }
 
-MeasuredBeat measured(const HarmonicLines::Wave& wave, const Frequency& from, double mean, double mm_per_degree) {
+MeasuredBeat measured(const HarmonicLines::MeasuredWave& wave, const Frequency& from, double mean, double mm_per_degree) {
     std::array<Beat, independent_sets + 1> found;  // without none, and without each set
     for (int without = -1; without < independent_sets; ++without)
         found[std::size_t(without + 1)] = beat_of(wave, from, mean, mm_per_degree, without);

@@ -37,55 +37,55 @@ MoireTheory::MoireTheory(const Display& d, const Geometry& g, double eye_mm, con
     glass_ = {power, g.lattice.strips ? 0 : power};
 }
 
-MoireTheory::Place MoireTheory::to_array(Place v) const {
+MoireTheory::WaveVector MoireTheory::to_array(WaveVector v) const {
     const double c = geometry_.lattice.cos_turn, s = geometry_.lattice.sin_turn;
     return {c * v.x + s * v.y, c * v.y - s * v.x};
 }
 
-Frequency MoireTheory::to_display(Place v) const {
+Frequency MoireTheory::to_display(WaveVector v) const {
     const double c = geometry_.lattice.cos_turn, s = geometry_.lattice.sin_turn;
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
 /// A harmonic of the panel as it lies in the vertex plane before the lenses sample it, in the array's frame.
-MoireTheory::Place MoireTheory::seen_harmonic(int k, int l) const {
+MoireTheory::WaveVector MoireTheory::seen_harmonic(int k, int l) const {
     // Rows count downwards.
     const double pixel = display_.panel.pixel_pitch_mm;
-    const Place panel = to_array({k / (panel_.cell()[0] * pixel), -l / (panel_.cell()[1] * pixel)});
+    const WaveVector panel = to_array({k / (panel_.cell()[0] * pixel), -l / (panel_.cell()[1] * pixel)});
     return {scale_.x * panel.x, scale_.y * panel.y};
 }
 
 /// The lattice's harmonics along an axis within reach of a panel harmonic.
-MoireTheory::Range MoireTheory::lens_orders(int axis, double panel, double reach) const {
+MoireTheory::OrderRange MoireTheory::lens_orders(int axis, double panel, double reach) const {
     if (axis == 1 && geometry_.lattice.strips) return {0, 0};
     const double step = lens_harmonic(axis == 0, axis == 1).x + lens_harmonic(axis == 0, axis == 1).y;
     return {int(std::ceil((panel - reach) / step)), int(std::floor((panel + reach) / step))};
 }
 
 /// (m/px, n/py); where rows are staggered, (m/px, n/2py), of which those with odd m + n vanish.
-MoireTheory::Place MoireTheory::lens_harmonic(int m, int n) const {
+MoireTheory::WaveVector MoireTheory::lens_harmonic(int m, int n) const {
     const Lattice<double>& lattice = geometry_.lattice;
     if (lattice.strips) return {m / lattice.pitch[0], 0};
     return {m / lattice.pitch[0], n / lattice.pitch[1] * (lattice.staggered ? 0.5 : 1)};
 }
 
 Frequency MoireTheory::beat(int k, int l) const {
-    const Place panel = seen_harmonic(k, l);
+    const WaveVector panel = seen_harmonic(k, l);
     const Lattice<double>& lattice = geometry_.lattice;
     const double reach_x = 1 / lattice.pitch[0], reach_y = 1 / lattice.pitch[1];
-    const Range across = lens_orders(0, panel.x, reach_x), up = lens_orders(1, panel.y, reach_y);
-    Place best{infinity, 0};
+    const OrderRange across = lens_orders(0, panel.x, reach_x), up = lens_orders(1, panel.y, reach_y);
+    WaveVector best{infinity, 0};
     for (int m = across.from; m <= across.to; ++m)
         for (int n = up.from; n <= up.to; ++n) {
             if (lattice.staggered && (m + n) % 2 != 0) continue;
-            const Place lens = lens_harmonic(m, n), f{panel.x - lens.x, panel.y - lens.y};
+            const WaveVector lens = lens_harmonic(m, n), f{panel.x - lens.x, panel.y - lens.y};
             if (std::hypot(f.x, f.y) < std::hypot(best.x, best.y)) best = f;
         }
     return to_display(best);
 }
 
 /// The mean of exp(-2 pi i nu angle) over the diffuser's angles; its axes are the display's.
-double MoireTheory::diffuser(Place nu) const {
+double MoireTheory::diffuser(WaveVector nu) const {
     if (!display_.diffuser) return 1;
     const Frequency along = to_display(nu);
     double mean = 1;
@@ -104,16 +104,16 @@ std::optional<Beat> MoireTheory::strongest(const EyeFilter& eye) const {
     const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm),
                  finest = eye.finest_cycles_per_degree / per_degree;
     const double above = geometry_.diffuser_z_mm.value_or(geometry_.rear_principal_mm) - geometry_.rear_principal_mm;
-    struct Harmonic {
+    struct PanelHarmonic {
         int k, l;
         double most;
     };
-    std::vector<Harmonic> harmonics;
+    std::vector<PanelHarmonic> harmonics;
     const auto [highest_k, highest_l] = panel_.highest_order();
     for (int k = 0; k <= highest_k; ++k)
         for (int l = k == 0 ? 1 : -highest_l; l <= highest_l; ++l)
             if (const double most = 2 * std::abs(panel_.harmonic(k, l)); most >= least_contrast) harmonics.push_back({k, l, most});
-    std::ranges::stable_sort(harmonics, std::greater(), &Harmonic::most);
+    std::ranges::stable_sort(harmonics, std::greater(), &PanelHarmonic::most);
     std::vector<Beat> strong;  // within `tied` of the strongest so far
     double greatest = least_seen;
     // Of lens harmonics, before near eyes a million for each of the panel's, most are known to be weak by bounds alone: those near
@@ -121,28 +121,28 @@ std::optional<Beat> MoireTheory::strongest(const EyeFilter& eye) const {
     for (const double nearest : {2., infinity})
         for (const auto& [k, l, most] : harmonics) {
             if (most < tied * greatest) break;
-            const Place seen = seen_harmonic(k, l), panel{seen.x / scale_.x, seen.y / scale_.y};
-            const Place on_lens{glass_.x * panel.x, glass_.y * panel.y};
+            const WaveVector seen = seen_harmonic(k, l), panel{seen.x / scale_.x, seen.y / scale_.y};
+            const WaveVector on_lens{glass_.x * panel.x, glass_.y * panel.y};
             const auto orders = [&](int axis, double of_panel, double of_aperture) {
-                const Range fine = lens_orders(axis, of_panel, finest);
+                const OrderRange fine = lens_orders(axis, of_panel, finest);
                 if (!std::isfinite(nearest)) return fine;
-                const Range near = lens_orders(axis, of_aperture, nearest / lattice.pitch[std::size_t(axis)]);
-                return Range{std::max(fine.from, near.from), std::min(fine.to, near.to)};
+                const OrderRange near = lens_orders(axis, of_aperture, nearest / lattice.pitch[std::size_t(axis)]);
+                return OrderRange{std::max(fine.from, near.from), std::min(fine.to, near.to)};
             };
-            const Range across = orders(0, seen.x, on_lens.x), up = orders(1, seen.y, on_lens.y);
+            const OrderRange across = orders(0, seen.x, on_lens.x), up = orders(1, seen.y, on_lens.y);
             for (int m = across.from; m <= across.to; ++m) {
                 if (most * aperture.most(std::abs(on_lens.x - lens_harmonic(m, 0).x)) < tied * greatest) continue;
                 for (int n = up.from; n <= up.to; ++n) {
                     if (lattice.staggered && (m + n) % 2 != 0) continue;
-                    const Place of_lens = lens_harmonic(m, n), f{seen.x - of_lens.x, seen.y - of_lens.y},
-                                nu{on_lens.x - of_lens.x, on_lens.y - of_lens.y};
+                    const WaveVector of_lens = lens_harmonic(m, n), f{seen.x - of_lens.x, seen.y - of_lens.y},
+                                     nu{on_lens.x - of_lens.x, on_lens.y - of_lens.y};
                     const double fine = std::hypot(f.x, f.y),
                                  at_most = most * aperture.most(lattice.strips ? std::abs(nu.x) : std::hypot(nu.x, nu.y));
                     if (fine > finest || at_most < tied * greatest) continue;
                     // A diffuser's angle t moves a line by `above` t in the lens and by g t more on the panel.
-                    const Place spread{above * (panel.x - of_lens.x) + geometry_.gap_mm * panel.x,
-                                       above * (panel.y - of_lens.y) +
-                                           (lattice.strips ? geometry_.reduced_vertex_plane_mm : geometry_.gap_mm) * panel.y};
+                    const WaveVector spread{above * (panel.x - of_lens.x) + geometry_.gap_mm * panel.x,
+                                            above * (panel.y - of_lens.y) +
+                                                (lattice.strips ? geometry_.reduced_vertex_plane_mm : geometry_.gap_mm) * panel.y};
                     const double diffused = std::abs(diffuser(spread)), filter = eye.filter(fine * per_degree);
                     if (at_most * diffused * filter < tied * greatest) continue;
                     Beat beat{to_display(f), most * diffused * std::abs(aperture.mean(nu.x, nu.y)), 0, to_display(spread)};

@@ -39,25 +39,27 @@ class MoireTheory {
     std::optional<Beat> strongest(const EyeFilter& = eye_for_luminance) const;
 
   private:
-    struct Place {
+    /// A frequency, periods per mm, or another vector of two components along x and y or x' and y'.
+    struct WaveVector {
         double x, y;
     };
-    struct Range {
+    /// Orders of the lattice's harmonics along one axis, both ends included.
+    struct OrderRange {
         int from, to;
     };
-    Place to_array(Place) const;
-    Frequency to_display(Place) const;
-    Place seen_harmonic(int k, int l) const;
-    Range lens_orders(int axis, double panel, double reach) const;
-    Place lens_harmonic(int m, int n) const;
-    double diffuser(Place nu) const;
+    WaveVector to_array(WaveVector) const;
+    Frequency to_display(WaveVector) const;
+    WaveVector seen_harmonic(int k, int l) const;
+    OrderRange lens_orders(int axis, double panel, double reach) const;
+    WaveVector lens_harmonic(int m, int n) const;
+    double diffuser(WaveVector nu) const;
 
     const Display& display_;
     const Geometry& geometry_;
     WhitePanel panel_;
     double eye_mm_;
-    Place scale_;  // panel places per place of the vertex plane, along the array's x' and y'
-    Place glass_;  // g/f, by how much a lens moves the panel place with the place in the lens
+    WaveVector scale_;  // panel places per place of the vertex plane, along the array's x' and y'
+    WaveVector glass_;  // g/f, by how much a lens moves the panel place with the place in the lens
 };
 
 }  // namespace lfdsim

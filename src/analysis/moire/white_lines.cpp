@@ -26,13 +26,13 @@ double counted_random(std::uint64_t counter) {
 WhiteSeen::WhiteSeen(const Display& d, const Geometry& green, const std::vector<ChannelWeights>& mixtures)
     : panel_(d.panel), vertex_plane_(green.vertex_plane_mm), mixtures_(mixtures.size()) {
     if (!disperses(d)) {
-        Path& path = paths_.emplace_back(Path{EyeRays(d, green), {}});
+        ChannelPath& path = paths_.emplace_back(ChannelPath{EyeRays(d, green), {}});
         for (const ChannelWeights& weights : mixtures) path.white.emplace_back(WhitePanel(d.panel, weights));
         return;
     }
     for (std::size_t c = 0; c < 3; ++c) {
         if (std::ranges::all_of(mixtures, [&](const ChannelWeights& weights) { return weights[c] == 0; })) continue;
-        Path& path = paths_.emplace_back(Path{EyeRays(d, resolve(d, d.panel.wavelengths_nm[c])), {}});
+        ChannelPath& path = paths_.emplace_back(ChannelPath{EyeRays(d, resolve(d, d.panel.wavelengths_nm[c])), {}});
         for (const ChannelWeights& weights : mixtures) {
             ChannelWeights own{};
             own[c] = weights[c];
@@ -70,12 +70,12 @@ std::vector<WhiteLines> WhiteLines::of(const WhiteSeen& screen, std::int64_t see
     };
     const std::vector<double> across = weights(window.columns), up = weights(window.rows);
     const auto columns = std::size_t(window.columns), rows = std::size_t(window.rows), squares = columns * rows;
-    struct Row {
+    struct RowSums {
         double light = 0, noise = 0;
     };
     std::vector<WhiteLines> all(screen.mixtures(), WhiteLines(window));
     for (WhiteLines& lines : all) lines.change_.resize(squares);
-    std::vector<std::vector<Row>> by_row(rows, std::vector<Row>(screen.mixtures()));
+    std::vector<std::vector<RowSums>> by_row(rows, std::vector<RowSums>(screen.mixtures()));
     parts.run(window.rows, [&](int part) {
         const auto row = std::size_t(part);
         std::vector<WhiteLight> found;
@@ -100,7 +100,7 @@ std::vector<WhiteLines> WhiteLines::of(const WhiteSeen& screen, std::int64_t see
     const double lines = double(squares) * lines_a_square;
     for (std::size_t m = 0; m < all.size(); ++m) {
         double sum = 0, of_squares = 0;
-        for (const std::vector<Row>& row : by_row) sum += row[m].light, of_squares += row[m].noise;
+        for (const std::vector<RowSums>& row : by_row) sum += row[m].light, of_squares += row[m].noise;
         all[m].mean_ = sum / lines;
         all[m].noise_ = std::sqrt(of_squares) / lines / all[m].mean_;
     }

@@ -61,14 +61,15 @@ class WhiteSeen {
     End end(std::size_t path, const Vec3d& eye, double x, double y, double a, double b) const;
 
   private:
-    struct Path {  // of channels whose light takes it
+    /// A path of light and the white panels of the channels that take it.
+    struct ChannelPath {
         EyeRays rays;
         std::vector<std::optional<WhitePanel>> white;  // of each mixture
     };
     const Panel& panel_;
     double vertex_plane_;
     std::size_t mixtures_;
-    std::vector<Path> paths_;
+    std::vector<ChannelPath> paths_;
 };
 
 /// What such lines see of one mixture.

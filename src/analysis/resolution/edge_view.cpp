@@ -17,12 +17,13 @@ namespace {
 
 constexpr int samples_a_pixel = 16;
 
-struct Box {
+/// A rectangle along the bars' axes a and b, mm.
+struct ScreenRect {
     double a, b, half_a, half_b;  // centre and half sizes
 };
 
 /// The upright rectangle within the array and in front of the panel, less a lens at each border.
-Box screen_middle(const Display& d, const Geometry& g) {
+ScreenRect screen_middle(const Display& d, const Geometry& g) {
     const double c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
     const double w = 0.5 * g.array_width_mm, h = 0.5 * g.array_height_mm;
     const double share = std::min(w / (w * c + h * s), h / (w * s + h * c));
@@ -32,17 +33,17 @@ Box screen_middle(const Display& d, const Geometry& g) {
         half = 0.5 * (high - low);
         if (half > 2 * pitch) half -= pitch;
     };
-    Box box{};
+    ScreenRect box{};
     along(g.lattice.offset[0], share * w, 0.5 * g.panel_width_mm, d.array.pitch_mm[0], box.a, box.half_a);
     along(g.lattice.offset[1], share * h, 0.5 * g.panel_height_mm, d.array.pitch_mm[1], box.b, box.half_b);
     return box;
 }
 
 /// What the eye sees of the bars' plane through the middle of the screen; not so long that slanted edges would leave it sideways.
-Box seen_box(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
-    const Box m = screen_middle(d, g);
+ScreenRect seen_box(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
+    const ScreenRect m = screen_middle(d, g);
     const double k = scale_to_plane(g, bars.z_mm, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;
-    Box box = bars.upright ? Box{x, -y, m.half_a * k, m.half_b * k} : Box{-y, x, m.half_b * k, m.half_a * k};
+    ScreenRect box = bars.upright ? ScreenRect{x, -y, m.half_a * k, m.half_b * k} : ScreenRect{-y, x, m.half_b * k, m.half_a * k};
     box.half_b = std::min(box.half_b, 0.5 * box.half_a / std::tan(std::abs(bars.lean_deg) * degree));
     return box;
 }
@@ -112,7 +113,7 @@ double Eye::x_mm() const { return distance_mm * std::sin(angle_deg * degree) + a
 double Eye::z_mm() const { return distance_mm * std::cos(angle_deg * degree); }
 
 std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
-    const Box box = seen_box(d, g, bars, eye);
+    const ScreenRect box = seen_box(d, g, bars, eye);
     return {box.half_a, box.half_b};
 }
 
@@ -122,7 +123,7 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     // Point samples: filtered ones average the panel over boxes, which would count as blur. Noise does not bias the mean edge.
     view.seen.render.estimator = Estimator::point;
     view.seen.render.samples = samples_a_pixel;
-    Box box = seen_box(display, geometry, bars, eye);
+    ScreenRect box = seen_box(display, geometry, bars, eye);
     box.half_b = 0.5 * bars.length_mm;
     const double margin =
         box.half_b * std::abs(tangent) + 0.5 * bars.width_mm / cosine;  // from an edge's middle to its farthest pixel

@@ -22,16 +22,16 @@ constexpr std::array plastic{0.7548776662466927, 0.5698402909980532};  // steps 
 }  // namespace
 
 double LineSpread::width_mm(double share) const {
-    std::vector<Line> all;
+    std::vector<WeightedOffset> all;
     double light = 0;
-    for (const std::vector<Line>& lines : sets_)
-        for (const Line& line : lines) {
+    for (const std::vector<WeightedOffset>& lines : sets_)
+        for (const WeightedOffset& line : lines) {
             all.push_back({std::abs(line.off_mm), line.light});
             light += line.light;
         }
-    std::sort(all.begin(), all.end(), [](const Line& a, const Line& b) { return a.off_mm < b.off_mm; });
+    std::sort(all.begin(), all.end(), [](const WeightedOffset& a, const WeightedOffset& b) { return a.off_mm < b.off_mm; });
     double within = 0;
-    for (const Line& line : all)
+    for (const WeightedOffset& line : all)
         if ((within += line.light) >= share * light) return 2 * line.off_mm;
     return std::numeric_limits<double>::quiet_NaN();
 }
@@ -41,7 +41,7 @@ Estimate LineSpread::middle_mm() const {
         double light = 0, sum = 0;
         for (std::size_t set = 0; set < sets_.size(); ++set) {
             if (int(set) == without) continue;
-            for (const Line& line : sets_[set]) {
+            for (const WeightedOffset& line : sets_[set]) {
                 light += line.light;
                 sum += line.light * line.off_mm;
             }
@@ -54,7 +54,7 @@ Modulation LineSpread::mtf(double step_per_mm, int count) const {
     std::array<std::vector<std::complex<double>>, independent_sets> sums;
     tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t set) {
         sums[set].resize(std::size_t(count));
-        for (const Line& line : sets_[set]) {
+        for (const WeightedOffset& line : sets_[set]) {
             const std::complex<double> turn = std::polar(1., 2 * pi * step_per_mm * line.off_mm);
             std::complex<double> wave = line.light;
             for (std::complex<double>& sum : sums[set]) {
@@ -97,8 +97,8 @@ void SeenThroughLenses::trace(const Subject& s, const Geometry& g, const Vec3d& 
             const Sight sight = rays.look_through(eye, aimed, choice[2], choice[3]);
             if (!(sight.light > 0)) continue;
             const auto add = [&](Sets& to, const std::array<double, 2>& shift) {
-                const std::optional<Shown> seen = shown({sight.x / pixel + 0.5 * double(d.panel.pixels[0]) + shift[0],
-                                                         0.5 * double(d.panel.pixels[1]) - sight.y / pixel + shift[1]});
+                const std::optional<ShownPoint> seen = shown({sight.x / pixel + 0.5 * double(d.panel.pixels[0]) + shift[0],
+                                                              0.5 * double(d.panel.pixels[1]) - sight.y / pixel + shift[1]});
                 if (!seen) return;
                 const NodalLine line = pickup.line(pickup.x_mm(seen->column - shift[0]), pickup.y_mm(seen->row - shift[1]));
                 if (!line.owned) return;  // black, whatever is shown
@@ -123,7 +123,7 @@ SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye, std::si
     for (const auto& [geometry, weight] : light_paths(d, s.geometry(), channel))
         trace(s, geometry, eye, more * spread_lines_a_set, [&, share = weight](const std::array<double, 2>& place) {
             const std::optional<ChannelPixels::Shining> found = pixels.at(place);
-            return found ? std::optional(Shown{found->shown[0] - 0.5, found->shown[1] - 0.5, share * found->brightness})
+            return found ? std::optional(ShownPoint{found->shown[0] - 0.5, found->shown[1] - 0.5, share * found->brightness})
                          : std::nullopt;
         });
 }
@@ -133,18 +133,18 @@ SeenThroughLenses::SeenThroughLenses(const std::array<SeenThroughLenses, 3>& cha
     for (std::size_t c = 0; c < 3; ++c)
         for (auto [from, to] : {std::pair{&channels[c].as_described_, &as_described_}, {&channels[c].anywhere_, &anywhere_}})
             for (std::size_t set = 0; set < independent_sets; ++set)
-                for (Seen seen : (*from)[set]) {
+                for (LinePair seen : (*from)[set]) {
                     seen.light *= luminance_weights[c];
                     (*to)[set].push_back(seen);
                 }
 }
 
-LineSpread SeenThroughLenses::spread(double z_mm, const Direction& direction, Pixels pixels) const {
+LineSpread SeenThroughLenses::spread(double z_mm, const Direction& direction, PixelPositions pixels) const {
     const auto along = [&](const std::array<double, 2>& v) { return direction.x * v[0] + direction.y * v[1]; };
-    const Sets& seen = pixels == Pixels::as_described ? as_described_ : anywhere_;
+    const Sets& seen = pixels == PixelPositions::as_described ? as_described_ : anywhere_;
     LineSpread::Sets sets;
     for (std::size_t set = 0; set < seen.size(); ++set)
-        for (const Seen& s : seen[set]) {
+        for (const LinePair& s : seen[set]) {
             const double shown = along(s.at) + (z_mm - principal_mm_) * along(s.slope),
                          looked_at = along(s.aimed) + (z_mm - vertex_mm_) * along(s.straight);
             sets[set].push_back({shown - looked_at, s.light});

@@ -23,10 +23,11 @@ struct Modulation {
 /// Distances in one direction of one plane, with the light of their lines.
 class LineSpread {
   public:
-    struct Line {
+    /// The distance of a line's shown point from the point that it looks at, and the line's light.
+    struct WeightedOffset {
         double off_mm, light;
     };
-    using Sets = std::array<std::vector<Line>, independent_sets>;
+    using Sets = std::array<std::vector<WeightedOffset>, independent_sets>;
     explicit LineSpread(Sets sets) : sets_(std::move(sets)) {}
 
     /// Width of the strip about 0 that contains this share of the light; NaN where there is none.
@@ -52,20 +53,21 @@ class SeenThroughLenses {
 
     /// Where the panel's pixels lie: as described, or shifted at random by up to a pixel, as assembly may leave them. On a screen
     /// of many lenses the two agree; elsewhere their difference is part of the figure's stated error.
-    enum class Pixels { as_described, anywhere };
+    enum class PixelPositions { as_described, anywhere };
 
     /// In a plane at a height above the panel, below the eye; along a direction.
-    LineSpread spread(double z_mm, const Direction&, Pixels) const;
+    LineSpread spread(double z_mm, const Direction&, PixelPositions) const;
 
   private:
-    struct Seen {
+    /// A line of sight and the nodal line of the point that it is shown.
+    struct LinePair {
         std::array<double, 2> at, slope;        // of the pixel's nodal line at the principal plane
         std::array<double, 2> aimed, straight;  // of the line of sight at the vertex plane
         double light;
     };
-    using Sets = std::array<std::vector<Seen>, independent_sets>;
-    /// What a line of sight meets: for which point it is made, columns and rows of the panel, and its light on a white panel.
-    struct Shown {
+    using Sets = std::array<std::vector<LinePair>, independent_sets>;
+    /// The point of the panel for which the content at a line's end is made, and its light on a white panel.
+    struct ShownPoint {
         double column, row, light;
     };
     /// Lines of sight through the display in light of one wavelength; `shown` of a place, in pixels from the panel's corner.

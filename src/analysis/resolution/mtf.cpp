@@ -72,8 +72,9 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
         const double last = m.frequencies_per_mm.back();
         const std::string never =
             fmt::format("modulation is never below {:.0f} % as far as was measured, {:.4g} per mm", 100 * level, last);
-        const auto reason = [&, at = level](std::initializer_list<Crossing> figures) -> std::string {  // empty: none is missing
-            for (const Crossing& of : figures)
+        const auto reason =
+            [&, at = level](std::initializer_list<LimitingFrequency> figures) -> std::string {  // empty: none is missing
+            for (const LimitingFrequency& of : figures)
                 if (std::isnan(of.found.value))
                     return std::isnan(of.least)
                                ? never

@@ -21,8 +21,8 @@ std::vector<double> errors(const Modulation& m, const std::vector<double>& pixel
     return found;
 }
 
-Crossing crossing(const std::vector<double>& frequencies, const Modulation& m, const std::vector<double>& pixels_anywhere,
-                  double level) {
+LimitingFrequency crossing(const std::vector<double>& frequencies, const Modulation& m, const std::vector<double>& pixels_anywhere,
+                           double level) {
     if (m.all.empty()) return {};
     Estimate found = jackknife([&](int k) { return falls_below(frequencies, k < 0 ? m.all : m.without[std::size_t(k)], level); });
     if (const double anywhere = falls_below(frequencies, pixels_anywhere, level); std::isfinite(anywhere))
@@ -52,16 +52,16 @@ std::complex<double> luminance_wave(const std::vector<ChannelBlur>& channels, do
 
 }  // namespace
 
-Crossing MtfCurves::below(double level) const { return crossing(frequencies_per_mm, modulation, pixels_anywhere, level); }
+LimitingFrequency MtfCurves::below(double level) const { return crossing(frequencies_per_mm, modulation, pixels_anywhere, level); }
 
-Crossing MtfCurves::below(double level, std::size_t channel) const {
+LimitingFrequency MtfCurves::below(double level, std::size_t channel) const {
     if (channels.empty()) return below(level);
     const ChannelMtf& of = channels[channel];
     return crossing(frequencies_per_mm, of.modulation, of.pixels_anywhere, level);
 }
 
-Crossing MtfCurves::edges_below(std::size_t channel, double level) const {
-    Crossing crossed = crossing(frequencies_per_mm, edges[channel], {}, level);
+LimitingFrequency MtfCurves::edges_below(std::size_t channel, double level) const {
+    LimitingFrequency crossed = crossing(frequencies_per_mm, edges[channel], {}, level);
     crossed.found.error = std::hypot(crossed.found.error, crossed.found.value - below(level, channel).found.value);
     return crossed;
 }
@@ -84,8 +84,8 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
     constexpr double most_lost = 0.2;  // of the light, beyond what the screen shows of the plane
     const Eye eye{angle_deg, s.viewing_distance_mm()};
     const Bars plane = bars_across(direction, s.geometry().vertex_plane_mm + depth_mm);
-    using Pixels = SeenThroughLenses::Pixels;
-    const LineSpread spread = seen.luminance.spread(plane.z_mm, direction, Pixels::as_described);
+    using PixelPositions = SeenThroughLenses::PixelPositions;
+    const LineSpread spread = seen.luminance.spread(plane.z_mm, direction, PixelPositions::as_described);
     // Seen from the side the plane is foreshortened, most along x.
     const double aside = direction.x * std::sin(angle_deg * degree), foreshortened = std::sqrt(1 - aside * aside);
     MtfCurves m{};
@@ -112,11 +112,11 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
         // A narrow core within a wide halo keeps its modulation longer. A channel may have one where luminance has none.
         std::vector<LineSpread> spreads{spread};
         for (const SeenThroughLenses& channel : seen.channels)
-            spreads.push_back(channel.spread(plane.z_mm, direction, Pixels::as_described));
+            spreads.push_back(channel.spread(plane.z_mm, direction, PixelPositions::as_described));
         const auto falls = [&](const LineSpread& of) { return falls_below_half(of.mtf(step, steps + 1)); };
         while (step * steps < 1 / finest && !std::ranges::all_of(spreads, falls)) step *= 2;
         m.modulation = spread.mtf(step, steps + 1);
-        m.pixels_anywhere = seen.luminance.spread(plane.z_mm, direction, Pixels::anywhere).mtf(step, steps + 1).all;
+        m.pixels_anywhere = seen.luminance.spread(plane.z_mm, direction, PixelPositions::anywhere).mtf(step, steps + 1).all;
     }
     for (int k = 0; k <= steps; ++k) {
         m.frequencies_per_mm.push_back(step * k);
@@ -128,10 +128,10 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
         for (const double f : m.frequencies_per_mm) channel.theory.push_back(std::abs(blurs[c].wave(f, direction)));
         channel.theory_middle_mm = blurs[c].middle_mm(direction);
         if (!m.missing.empty()) continue;
-        const LineSpread of_channel = seen.channels[c].spread(plane.z_mm, direction, Pixels::as_described);
+        const LineSpread of_channel = seen.channels[c].spread(plane.z_mm, direction, PixelPositions::as_described);
         channel.modulation = of_channel.mtf(step, steps + 1);
         channel.middle_mm = of_channel.middle_mm();
-        channel.pixels_anywhere = seen.channels[c].spread(plane.z_mm, direction, Pixels::anywhere).mtf(step, steps + 1).all;
+        channel.pixels_anywhere = seen.channels[c].spread(plane.z_mm, direction, PixelPositions::anywhere).mtf(step, steps + 1).all;
     }
     return m;
 }

@@ -23,7 +23,7 @@ struct ChannelMtf {
 /// The frequency per mm at which modulation first falls below a level, with an error that reaches from where the curve less its own
 /// error does so to where the curve plus its error does: far apart where it grazes the level. NaN where the latter never does, as
 /// far as was measured.
-struct Crossing {
+struct LimitingFrequency {
     Estimate found;
     double least = nan;  // where the curve less its error falls below the level
 };
@@ -47,11 +47,11 @@ struct MtfCurves {
 
     bool has_theory() const { return astray < 0.01; }
     /// The error includes the effect of the phases in which this screen's pixels happen to meet its lenses.
-    Crossing below(double level) const;
-    Crossing below(double level, std::size_t channel) const;
+    LimitingFrequency below(double level) const;
+    LimitingFrequency below(double level, std::size_t channel) const;
     /// The same of a colour's edges. They are a sample of all the places where edges may be, so the error is at least their
     /// difference from lines of sight.
-    Crossing edges_below(std::size_t channel, double level) const;
+    LimitingFrequency edges_below(std::size_t channel, double level) const;
     double theory_below(double level) const;
     double theory_below(double level, std::size_t channel) const;
 };

@@ -18,7 +18,7 @@ Resolution resolution(const Subject& s, const MtfCurves& m) {
         if (at_the_lenses(s.display(), g, z)) r.theory_per_mm = nan;
     } else {
         // A curve that never falls below one half as far as was measured does not do so below the limit.
-        const Crossing mtf50 = m.below(0.5);
+        const LimitingFrequency mtf50 = m.below(0.5);
         const bool limited = !(mtf50.found.value < limit);
         r.per_mm = limited ? Estimate{limit, mtf50.least < limit ? limit - mtf50.least : 0} : mtf50.found;
         r.limited_by = !limited ? "mtf50" : r.lens_limit_per_mm <= r.pixel_limit_per_mm ? "lens sampling" : "pixel image";

@@ -105,7 +105,7 @@ ChannelBlur::ChannelBlur(const Subject& s, std::size_t channel, double z_mm, dou
     image_ = d.panel.pixel_pitch_mm * shown;
     for (const auto& [g, weight] : light_paths(d, green, channel)) {
         const Theory t = theory(d, g);
-        Path path{weight, blur(d, green, t, z_mm, angle_deg), {}, {}};
+        BlurPath path{weight, blur(d, green, t, z_mm, angle_deg), {}, {}};
         const double lateral = shown * g.gap_mm - (z_mm - g.rear_principal_mm);  // off per slope
         path.blur.defocus = std::abs(1 - shown * g.gap_mm / t.central_depth_mm);
         if (d.diffuser) {
@@ -133,7 +133,7 @@ std::complex<double> ChannelBlur::wave(double f, const Direction& direction) con
 
 double ChannelBlur::middle_mm(const Direction& direction) const {
     double sum = 0;
-    for (const Path& path : paths_) sum += path.weight * (direction.x * path.middle_mm[0] + direction.y * path.middle_mm[1]);
+    for (const BlurPath& path : paths_) sum += path.weight * (direction.x * path.middle_mm[0] + direction.y * path.middle_mm[1]);
     const auto [x, y] = pixels_.middle();
     return sum + image_ * (direction.x * x - direction.y * y);
 }

@@ -59,13 +59,14 @@ class ChannelBlur {
     double narrowest_mm(const Direction& d) const { return std::abs(image_) * pixels_.narrowest(d.x, d.y); }
 
   private:
-    struct Path {
+    /// The blur of the light at one wavelength.
+    struct BlurPath {
         double weight;
         Blur blur;                         // of a lens in this light
         std::array<double, 2> lateral_mm;  // full widths along x' and y': off differs from lens to lens
         std::array<double, 2> middle_mm;   // along x and y
     };
-    std::vector<Path> paths_;
+    std::vector<BlurPath> paths_;
     ChannelPixels pixels_;
     double image_;  // of a panel pixel, negative behind the lenses
 };

@@ -15,10 +15,10 @@ constexpr double flat_share = 0.75;  // of the reach: farther out the window fal
 double cosine(const Edges& e) { return 1 / std::sqrt(1 + e.slope * e.slope); }
 
 /// The pixels of a row whose centres are within the reach of an edge that crosses the row's middle at `x`.
-struct Span {
+struct PixelSpan {
     int from, to;
 };
-Span reached(const Edges& e, double x, int width) {
+PixelSpan reached(const Edges& e, double x, int width) {
     const double half = e.reach / cosine(e);
     const auto pixel = [&](double at) { return int(std::ceil(std::clamp(at - 0.5, 0., double(width)))); };
     return {pixel(x - half), pixel(x + half)};
@@ -51,9 +51,9 @@ void EdgeSpread::add(const Edges& edges, const Image& picture, const Image& whit
     const double scale = cosine(edges) * bins_per_pixel, middle = 0.5 * double(sets_[0].size());
     for (int row = 0; row < picture.height; ++row) {
         std::vector<Bin>& bins = sets_[std::size_t((2 * pictures_ + (2 * row >= picture.height)) % independent_sets)];
-        for (const Edges::Line& line : edges.lines) {
+        for (const Edges::EdgeLine& line : edges.lines) {
             const double x = line.at + edges.slope * (row + 0.5);
-            const Span span = reached(edges, x, picture.width);
+            const PixelSpan span = reached(edges, x, picture.width);
             for (int column = span.from; column < span.to; ++column) {
                 const double distance = column + 0.5 - x;
                 Bin& bin = bins[std::size_t(std::clamp(std::floor(distance * scale + middle), 0., double(bins.size() - 1)))];

@@ -18,11 +18,12 @@ namespace lfdsim {
 
 /// Parallel edges, nearly upright, that cross a picture from its first row to its last. In pixels from its upper left corner.
 struct Edges {
-    struct Line {
+    /// One edge.
+    struct EdgeLine {
         double at;    // where it meets row 0
         bool rising;  // bright on its right
     };
-    std::vector<Line> lines;
+    std::vector<EdgeLine> lines;
     double slope = 0;  // columns a row
     double reach = 0;  // how far on each side, across the edge, pixels belong to this edge; at least 1
 };

@@ -98,30 +98,30 @@ Corners within_circle(const Corners& corners, double radius) {
 }  // namespace
 
 ApertureShape aperture_shape(const Display& d, const Geometry& g) {
-    using Form = ApertureShape::Form;
+    using ApertureForm = ApertureShape::ApertureForm;
     const Pupil& pupil = g.pupil;
-    if (g.lattice.strips) return {Form::slit, g.clear_aperture_mm};
-    if (d.array.aperture == Aperture::circle) return {Form::disk, g.clear_aperture_mm};
+    if (g.lattice.strips) return {ApertureForm::slit, g.clear_aperture_mm};
+    if (d.array.aperture == Aperture::circle) return {ApertureForm::disk, g.clear_aperture_mm};
     const std::array<double, 2> cell{pupil.cells * d.array.pitch_mm[0], pupil.cells * d.array.pitch_mm[1]};
-    const Form form = g.lattice.hexagonal ? Form::hexagon : Form::rectangle;
-    if (pupil.radius_mm <= 0.5 * std::min(cell[0], cell[1])) return {Form::disk, g.clear_aperture_mm};
+    const ApertureForm form = g.lattice.hexagonal ? ApertureForm::hexagon : ApertureForm::rectangle;
+    if (pupil.radius_mm <= 0.5 * std::min(cell[0], cell[1])) return {ApertureForm::disk, g.clear_aperture_mm};
     if (pupil.radius_mm >= pupil.cells * outer_radius_mm(d.array) * (1 - 1e-12)) return {form, cell};
-    const Corners corners = form == Form::hexagon ? hexagon(0.5 * cell[0]) : rectangle(0.5 * cell[0], 0.5 * cell[1]);
-    return {Form::cut, g.clear_aperture_mm, within_circle(corners, pupil.radius_mm)};
+    const Corners corners = form == ApertureForm::hexagon ? hexagon(0.5 * cell[0]) : rectangle(0.5 * cell[0], 0.5 * cell[1]);
+    return {ApertureForm::cut, g.clear_aperture_mm, within_circle(corners, pupil.radius_mm)};
 }
 
 bool ApertureShape::holds(double x, double y) const {
     const double half_x = 0.5 * width_mm[0], half_y = 0.5 * width_mm[1];
     switch (form) {
-        case Form::slit:
+        case ApertureForm::slit:
             return std::abs(x) <= half_x;
-        case Form::disk:
+        case ApertureForm::disk:
             return x * x + y * y <= half_x * half_x;
-        case Form::rectangle:
+        case ApertureForm::rectangle:
             return std::abs(x) <= half_x && std::abs(y) <= half_y;
-        case Form::hexagon:
+        case ApertureForm::hexagon:
             return std::abs(x) <= half_x && 0.5 * std::abs(x) + 0.5 * std::numbers::sqrt3 * std::abs(y) <= half_x;
-        case Form::cut:
+        case ApertureForm::cut:
             break;
     }
     for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -132,32 +132,32 @@ bool ApertureShape::holds(double x, double y) const {
 }
 
 double ApertureShape::most(double nu) const {
-    const double border_per_area = form == Form::slit        ? 2 / width_mm[0]
-                                   : form == Form::rectangle ? 2 / width_mm[0] + 2 / width_mm[1]
-                                   : form == Form::cut       ? border_of(outline) / area_of(outline)
-                                                             : 4 / width_mm[0];
+    const double border_per_area = form == ApertureForm::slit        ? 2 / width_mm[0]
+                                   : form == ApertureForm::rectangle ? 2 / width_mm[0] + 2 / width_mm[1]
+                                   : form == ApertureForm::cut       ? border_of(outline) / area_of(outline)
+                                                                     : 4 / width_mm[0];
     return std::min(1., border_per_area / (2 * pi * nu));
 }
 
 double ApertureShape::mean(double nu_x, double nu_y) const {
     switch (form) {
-        case Form::slit:
+        case ApertureForm::slit:
             return sinc(nu_x * width_mm[0]);
-        case Form::disk: {
+        case ApertureForm::disk: {
             const double x = pi * width_mm[0] * std::hypot(nu_x, nu_y);
             return x < 1e-6 ? 1 : 2 * std::cyl_bessel_j(1, x) / x;
         }
-        case Form::rectangle:
+        case ApertureForm::rectangle:
             return sinc(nu_x * width_mm[0]) * sinc(nu_y * width_mm[1]);
-        case Form::hexagon:
-        case Form::cut:
+        case ApertureForm::hexagon:
+        case ApertureForm::cut:
             break;
     }
     return polygon_mean(corners(0), nu_x, nu_y);
 }
 
 double ApertureShape::extent_mm(std::size_t axis) const {
-    if (form != Form::hexagon && form != Form::cut) return width_mm[axis];
+    if (form != ApertureForm::hexagon && form != ApertureForm::cut) return width_mm[axis];
     double greatest = 0;
     for (const auto& corner : corners(0)) greatest = std::max(greatest, corner[axis]);
     return 2 * greatest;
@@ -165,8 +165,8 @@ double ApertureShape::extent_mm(std::size_t axis) const {
 
 double ApertureShape::below(std::size_t axis, double place) const {
     const double u = std::clamp(2 * place / width_mm[axis], -1., 1.);
-    if (form == Form::slit || form == Form::rectangle) return 0.5 * (1 + u);
-    if (form == Form::disk) return 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / pi;  // chords
+    if (form == ApertureForm::slit || form == ApertureForm::rectangle) return 0.5 * (1 + u);
+    if (form == ApertureForm::disk) return 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / pi;  // chords
     const Corners all = corners(0);
     return area_of(cut_off(all, axis, place)) / area_of(all);
 }
@@ -176,15 +176,15 @@ ApertureShape::Corners ApertureShape::corners(double length_mm) const {
     const double half_x = 0.5 * width_mm[0];
     Corners disk;
     switch (form) {
-        case Form::slit:
+        case ApertureForm::slit:
             return rectangle(half_x, 0.5 * length_mm);
-        case Form::rectangle:
+        case ApertureForm::rectangle:
             return rectangle(half_x, 0.5 * width_mm[1]);
-        case Form::hexagon:
+        case ApertureForm::hexagon:
             return hexagon(half_x);
-        case Form::cut:
+        case ApertureForm::cut:
             return outline;
-        case Form::disk:
+        case ApertureForm::disk:
             break;
     }
     for (int k = 0; k < drawn; ++k) disk.push_back({half_x * std::cos(2 * pi * k / drawn), half_x * std::sin(2 * pi * k / drawn)});

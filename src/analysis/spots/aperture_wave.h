@@ -11,10 +11,10 @@ namespace lfdsim {
 
 /// The clear aperture of a paraxial lens, in the array's own axes: a round pupil, a cell, or what is common to both.
 struct ApertureShape {
-    enum class Form { disk, rectangle, hexagon, slit, cut };  // cut: a cell whose corners lie outside of a round pupil
+    enum class ApertureForm { disk, rectangle, hexagon, slit, cut };  // cut: a cell whose corners lie outside of a round pupil
     using Corners = std::vector<std::array<double, 2>>;
 
-    Form form;
+    ApertureForm form;
     std::array<double, 2> width_mm;  // D along x' and y'; a hexagon's is that between opposite sides, a slit has no end along y'
     Corners outline{};               // of a cut cell, counter-clockwise; arcs in short chords that keep the area
 

@@ -85,11 +85,11 @@ Fans fans(const LensTrace& lens, Point panel, int rays) {
     return result;
 }
 
-Width width_at(const std::vector<Line>& lines, double z) {
+FanWidth width_at(const std::vector<FanRay>& lines, double z) {
     if (lines.empty()) return {0, 0};
-    Line low = lines.front(), high = low;
+    FanRay low = lines.front(), high = low;
     double lowest = infinity, highest = -infinity;
-    for (const Line& l : lines) {
+    for (const FanRay& l : lines) {
         const double at = l.at + l.slope * z;
         if (at < lowest) lowest = at, low = l;
         if (at > highest) highest = at, high = l;
@@ -105,10 +105,10 @@ double diffuser_angle(const Display& d, Point along) {
     return d.diffuser->profile == Profile::box ? x + y : std::hypot(x, y);  // a rectangle's reach; a normal distribution's width
 }
 
-std::vector<Line> diffused(const std::vector<Line>& lines, double z, double angle) {
+std::vector<FanRay> diffused(const std::vector<FanRay>& lines, double z, double angle) {
     constexpr double most = 89 * degree;
-    std::vector<Line> result;
-    for (const Line& l : lines)
+    std::vector<FanRay> result;
+    for (const FanRay& l : lines)
         for (const double turn : {-angle, angle}) {
             const double at = l.at + l.slope * z, slope = std::tan(std::clamp(std::atan(l.slope) + turn, -most, most));
             result.push_back({at - slope * z, slope});

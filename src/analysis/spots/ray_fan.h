@@ -17,8 +17,8 @@ struct Bundle {
 /// Rays from the middles of a grid of about across x across cells over the directions that get through.
 Bundle bundle(const LensTrace&, Point panel, int across);
 
-/// Where a ray crosses the depth z along one axis: at + slope z.
-struct Line {
+/// A ray of a fan in its plane: it crosses the depth z at `at` + slope z.
+struct FanRay {
     double at, slope;
 };
 
@@ -26,21 +26,21 @@ struct Line {
 /// point on the axis: along x), and across it the sagittal one about the middle ray of the other. Each as seen along its own plane.
 /// Empty where nothing gets through.
 struct Fans {
-    std::vector<Line> meridional, sagittal;
+    std::vector<FanRay> meridional, sagittal;
 };
 Fans fans(const LensTrace&, Point panel, int rays);
 
 /// The full width of a fan at depth z, and its derivative along z. 0 for no lines. It is a convex function of z.
-struct Width {
+struct FanWidth {
     double mm, per_mm;
 };
-Width width_at(const std::vector<Line>&, double z);
+FanWidth width_at(const std::vector<FanRay>&, double z);
 
 /// Half the diffuser's full angle (gaussian: full width at half maximum) along a unit vector of the array's axes, radians; 0
 /// without one.
 double diffuser_angle(const Display&, Point along);
 
 /// The outermost lines after a diffuser at depth z that turns each by as much as +-angle (radians), up to 89 degrees from the axis.
-std::vector<Line> diffused(const std::vector<Line>&, double z, double angle);
+std::vector<FanRay> diffused(const std::vector<FanRay>&, double z, double angle);
 
 }  // namespace lfdsim

@@ -28,8 +28,8 @@ double change(double out, double in, Predicate holds) {
 }
 
 /// Every third ray from `first` on, with the rims.
-std::vector<Line> thinned(const std::vector<Line>& fan, std::size_t first) {
-    std::vector<Line> third;
+std::vector<FanRay> thinned(const std::vector<FanRay>& fan, std::size_t first) {
+    std::vector<FanRay> third;
     for (std::size_t k = first; k < fan.size(); k += 3) third.push_back(fan[k]);
     if (!fan.empty()) third.insert(third.end(), {fan.front(), fan.back()});
     return third;
@@ -37,16 +37,16 @@ std::vector<Line> thinned(const std::vector<Line>& fan, std::size_t first) {
 
 /// A fan, and the three thirds of it.
 struct Fan {
-    explicit Fan(const std::vector<Line>& fan) : all(fan), thirds{thinned(fan, 0), thinned(fan, 1), thinned(fan, 2)} {}
+    explicit Fan(const std::vector<FanRay>& fan) : all(fan), thirds{thinned(fan, 0), thinned(fan, 1), thinned(fan, 2)} {}
     /// Each ray turned by the diffuser.
     Fan diffused_at(double z, double angle) const {
         Fan turned(*this);
-        for (std::vector<Line>* lines : {&turned.all, &turned.thirds[0], &turned.thirds[1], &turned.thirds[2]})
+        for (std::vector<FanRay>* lines : {&turned.all, &turned.thirds[0], &turned.thirds[1], &turned.thirds[2]})
             *lines = diffused(*lines, z, angle);
         return turned;
     }
-    std::vector<Line> all;
-    std::array<std::vector<Line>, 3> thirds;
+    std::vector<FanRay> all;
+    std::array<std::vector<FanRay>, 3> thirds;
 };
 
 /// The errors of the ends by the finite number of rays. An end is set by the outermost ray, which lies d <= h/2 beside the true
@@ -55,7 +55,7 @@ struct Fan {
 std::array<double, 2> errors(const SharpDepths& all, const Fan& fan, double pixel_slope, double airy_slope) {
     constexpr double margin = 0.25;  // twice an eighth
     std::array<double, 2> most{1e-9 * std::abs(all.near_per_mm), 1e-9 * std::abs(all.far_per_mm)};
-    for (const std::vector<Line>& third : fan.thirds) {
+    for (const std::vector<FanRay>& third : fan.thirds) {
         const SharpDepths other = where_sharp(third, pixel_slope, airy_slope);
         most[0] = std::max(most[0], margin * std::abs(all.near_per_mm - other.near_per_mm));
         most[1] = std::max(most[1], margin * std::abs(all.far_per_mm - other.far_per_mm));
@@ -73,12 +73,12 @@ class Teller {
           result_(result) {}
 
     /// `low` and `high` are errors of what is measured; none: it is theory's alone.
-    struct Measured {
+    struct MeasuredRange {
         SharpRange range, least, most;  // the same with its errors for and against it
         std::string missing;            // why there is none at all
     };
 
-    void tell(const std::string& key, const std::string& what, const std::optional<Measured>& found, const SharpRange& theory,
+    void tell(const std::string& key, const std::string& what, const std::optional<MeasuredRange>& found, const SharpRange& theory,
               const std::string& remark) {
         Json& json = result_.figures[key];
         for (const bool in_front : {false, true}) {
@@ -120,7 +120,7 @@ class Teller {
     void by_pixel(const std::string& key, const std::string& diopters, const std::string& what, const Fan& fan, double airy_slope,
                   const SharpRange& theory, const std::string& remark) {
         const SharpDepths depths = where_sharp(fan.all, pixel_slope_, airy_slope);
-        Measured found;
+        MeasuredRange found;
         if (std::isnan(depths.near_per_mm)) {
             found.missing = fan.all.empty()
                                 ? "no light of the panel's point on the axis gets through the lens"
@@ -144,7 +144,7 @@ class Teller {
 
     /// By the lens: the depths z where the fan is no wider than the pitch, or than where it leaves the lens.
     void by_lens(const Fan& fan, double pitch_mm, const SharpRange& theory) {
-        Measured found;
+        MeasuredRange found;
         if (fan.all.empty()) {
             found.missing = "no light of the panel's point on the axis gets through the lens";
             found.range = found.least = found.most = range_between(geometry_, nan, nan, eye_mm_);
@@ -153,7 +153,7 @@ class Teller {
             std::array<double, 2> error{};
             for (std::size_t k = 0; k < 2; ++k)
                 if (std::isfinite(all[k])) error[k] = 1e-9 * std::abs(all[k]);
-            for (const std::vector<Line>& third : fan.thirds) {
+            for (const std::vector<FanRay>& third : fan.thirds) {
                 const std::array<double, 2> other = where_narrow(third, pitch_mm);
                 for (std::size_t k = 0; k < 2; ++k)
                     if (std::isfinite(all[k])) error[k] = std::max(error[k], 0.25 * std::abs(all[k] - other[k]));  // as in errors()
@@ -188,12 +188,12 @@ class Teller {
 
 }  // namespace
 
-SharpDepths where_sharp(const std::vector<Line>& fan, double pixel_slope, double airy_slope) {
+SharpDepths where_sharp(const std::vector<FanRay>& fan, double pixel_slope, double airy_slope) {
     if (fan.empty()) return {nan, nan, nan, nan};
     // A ray at + slope z, over its depth: at/z + slope, a line over 1/z too. The width of a fan is therefore convex there, and
     // within the limit in one interval about its minimum.
-    std::vector<Line> over_depth;
-    for (const Line& l : fan) over_depth.push_back({l.slope, l.at});
+    std::vector<FanRay> over_depth;
+    for (const FanRay& l : fan) over_depth.push_back({l.slope, l.at});
     const auto width = [&](double per_mm) { return std::hypot(width_at(over_depth, per_mm).mm, airy_slope); };
     const auto rises = [&](double per_mm) { return width_at(over_depth, per_mm).per_mm > 0; };
     const auto sharp = [&](double per_mm) { return width(per_mm) <= pixel_slope; };
@@ -203,7 +203,7 @@ SharpDepths where_sharp(const std::vector<Line>& fan, double pixel_slope, double
             sharp(-most_per_mm) ? -most_per_mm : change(-most_per_mm, best, sharp), best, width(best)};
 }
 
-std::array<double, 2> where_narrow(const std::vector<Line>& fan, double width_mm) {
+std::array<double, 2> where_narrow(const std::vector<FanRay>& fan, double width_mm) {
     // The width is a convex function of z, so that it is within the limit in one interval, which contains 0.
     const double limit = std::max(width_mm, width_at(fan, 0).mm) * (1 + 1e-12);
     const auto narrow = [&](double z) { return width_at(fan, z).mm <= limit; };

@@ -21,11 +21,11 @@ struct SharpDepths {
 
 /// Where a fan is no wider than a panel pixel's image, |width(z)| <= a |z|/g with `pixel_slope` = a/g. The Airy disk's diameter
 /// over its depth, `airy_slope`, is added in quadrature.
-SharpDepths where_sharp(const std::vector<Line>& fan, double pixel_slope, double airy_slope = 0);
+SharpDepths where_sharp(const std::vector<FanRay>& fan, double pixel_slope, double airy_slope = 0);
 
 /// From where to where a fan is no wider than `width_mm`, or than at the lens itself: depths z from the rear principal plane, below
 /// and above 0; infinite where it never is wider. The fan is not empty.
-std::array<double, 2> where_narrow(const std::vector<Line>& fan, double width_mm);
+std::array<double, 2> where_narrow(const std::vector<FanRay>& fan, double width_mm);
 
 /// Where a perfect wave that converges to L (or diverges from it, L < 0) through an aperture D differs from one to z by no more
 /// than a quarter of the wavelength at the rim: |1/z - 1/L| D^2 / 8 <= wavelength / 4 (Born and Wolf, section 8.8). Near, far.

@@ -42,11 +42,12 @@ class RealLens {
     RealLens(const Display& d, const Geometry& g)
         : scene_(make_traced_display<double>(without_errors(d), g)), rear_principal_mm_(g.rear_principal_mm) {}
 
-    struct Seen {
+    /// The end of a line of sight.
+    struct PanelEnd {
         optics::Vec2<double> place;  // on the panel, from the array's middle in its axes
         double weight;               // 0: the line ends on its way
     };
-    Seen look(const ParaxialLine& line) const {
+    PanelEnd look(const ParaxialLine& line) const {
         const Lattice<double>& l = scene_.lattice;
         const double length = std::sqrt(1 + line.slope.x * line.slope.x + line.slope.y * line.slope.y),
                      down = scene_.surface[0].z - rear_principal_mm_;
@@ -134,7 +135,7 @@ Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
         if (!lens || (!line->through && past > 0)) {
             seen.real += by_theory;
         } else {
-            const RealLens::Seen found = lens->look(*line);
+            const RealLens::PanelEnd found = lens->look(*line);
             if (found.weight > 0 && lines.on_panel(found.place)) seen.real += found.weight;
         }
     }

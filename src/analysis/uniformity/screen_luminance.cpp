@@ -25,7 +25,7 @@ ScreenLuminance screen_luminance(const EyeRays& rays, const Display& d, const Ge
     const int rays_each = rays_a_part / independent_sets * rays.more_for(eye);
     parts.run(all.count(), [&](int part) {
         const LensBlock block = all.block(part);
-        ScreenLuminance::Part& found = screen.parts[std::size_t(part)];
+        ScreenLuminance::LuminancePart& found = screen.parts[std::size_t(part)];
         double on_screen = 0;
         for (int set = 0; set < independent_sets; ++set) {
             double sum = 0, lines = 0;
@@ -52,7 +52,7 @@ std::vector<double> means(const std::vector<Sums>& all) {
 
 std::vector<double> ScreenLuminance::values() const {
     std::vector<double> all;
-    for (const Part& part : parts) all.push_back(part.whole ? total(part.light) / independent_sets : nan);
+    for (const LuminancePart& part : parts) all.push_back(part.whole ? total(part.light) / independent_sets : nan);
     return all;
 }
 double ScreenLuminance::least() const {
@@ -69,7 +69,7 @@ double ScreenLuminance::greatest() const {
 Estimate ScreenLuminance::mean() const {
     Sums sums{};
     double all = 0;
-    for (const Part& part : parts) {
+    for (const LuminancePart& part : parts) {
         all += part.lenses;
         for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += part.lenses * part.light[k];
     }
@@ -80,7 +80,7 @@ Estimate ScreenLuminance::mean() const {
 Estimate ScreenLuminance::uniformity_percent(bool inside) const {
     Estimate least{std::numeric_limits<double>::infinity(), 0}, greatest{0, 0};
     double squares = 0, count = 0;  // of the parts' errors
-    for (const Part& part : parts) {
+    for (const LuminancePart& part : parts) {
         if (!part.whole) continue;
         const Estimate light = estimate(part.light);
         squares += light.error * light.error;
@@ -105,13 +105,14 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Geom
         return double(first + std::min(std::int64_t((0.5 + 0.5 * choice) * double(count)), count - 1));
     };
     const auto cell = [](double number) { return std::size_t(std::min(int((0.5 + 0.5 * number) * side), side - 1)); };
-    struct Cell {
+    // The light of a square of the lens's cell and the number of its lines.
+    struct CellSum {
         double light = 0, lines = 0;
     };
-    std::vector<std::vector<Cell>> sums(pitch_luminance_parts);  // part k is of set k modulo their number
+    std::vector<std::vector<CellSum>> sums(pitch_luminance_parts);  // part k is of set k modulo their number
     const PanelBehind panel(g);
     parts.run(pitch_luminance_parts, [&](int part) {
-        std::vector<Cell>& sum = sums[std::size_t(part)];
+        std::vector<CellSum>& sum = sums[std::size_t(part)];
         sum.resize(side * side);
         for (const Choice& c : even_choices(rays_each, set_number(d.render.seed, part))) {
             const auto axis = optics::axis_in_array(lattice, optics::Cell<double>{in_middle(0, c[4]), in_middle(1, c[5])});
@@ -120,7 +121,7 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Geom
             if (!panel.meets(eye, at[0], at[1], inner_panel)) continue;
             // Along strips nothing repeats: the place within a length as long as their pitch
             const double turns = up / lattice.pitch[0], number = lattice.strips ? 2 * (turns - std::floor(turns)) - 1 : c[1];
-            Cell& seen = sum[(side - 1 - cell(number)) * side + cell(c[0])];
+            CellSum& seen = sum[(side - 1 - cell(number)) * side + cell(c[0])];
             seen.light += rays.look_through(eye, at, c[2], c[3]).light;
             ++seen.lines;
         }
@@ -128,7 +129,7 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Geom
     PitchLuminance luminance{std::vector<Sums>(side * side)};
     for (std::size_t k = 0; k < luminance.places.size(); ++k)
         for (std::size_t set = 0; set < independent_sets; ++set) {
-            Cell all;
+            CellSum all;
             for (std::size_t part = set; part < sums.size(); part += independent_sets) {
                 all.light += sums[part][k].light;
                 all.lines += sums[part][k].lines;

@@ -13,13 +13,13 @@ namespace lfdsim {
 /// as equal as lenses allow, row 0 at the top. Of each what is in front of the panel.
 struct ScreenLuminance {
     int columns, rows;
-    struct Part {
+    struct LuminancePart {
         Sums light{};          // mean luminance by each set of lines of sight; 0 where none of it is in front of the panel
         double lenses = 0;     // in front of the panel
         bool whole = false;    // at least least_on_screen of it is; others count in the mean alone
         bool is_inner = true;  // its middle lies in the middle 8/10 of width and height
     };
-    std::vector<Part> parts;
+    std::vector<LuminancePart> parts;
     std::vector<double> values() const;  // NaN of parts that are not whole
     Estimate mean() const;
     double least() const, greatest() const;

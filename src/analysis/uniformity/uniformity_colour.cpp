@@ -35,7 +35,7 @@ BlockLight light_of_block(const ColouredWhite& white, const Subject& s, const Ve
                           const LensBlock& block, int lines, int first_set) {
     BlockLight block_light;
     for (int set = 0; set < independent_sets; ++set) {
-        const ColouredWhite::Seen seen =
+        const ColouredWhite::BlockColour seen =
             white.look(eye, screen, block, even_choices(lines, set_number(s.display().render.seed, first_set + set)));
         for (std::size_t c = 0; c < 3; ++c) block_light.light[c][std::size_t(set)] = seen.light[c];
         block_light.on_screen += seen.on_screen / independent_sets;
@@ -190,13 +190,13 @@ ColouredWhite::ColouredWhite(const Subject& s)
     }
     for (std::size_t c = 0; c < 3; ++c)
         for (const auto& [geometry, weight] : light_paths(d, s.geometry(), c)) {
-            Path& path = paths_.emplace_back(Path{EyeRays(d, geometry), {}});
+            ColourPath& path = paths_.emplace_back(ColourPath{EyeRays(d, geometry), {}});
             path.weight[c] = weight;
         }
 }
 
-ColouredWhite::Seen ColouredWhite::look(const Vec3d& eye, const ScreenParts& screen, const LensBlock& block,
-                                        std::span<const Choice> choices) const {
+ColouredWhite::BlockColour ColouredWhite::look(const Vec3d& eye, const ScreenParts& screen, const LensBlock& block,
+                                               std::span<const Choice> choices) const {
     std::array<double, 3> sum{};
     double lines = 0;
     for (const Choice& choice : choices) {

@@ -16,24 +16,25 @@ class ColouredWhite {
   public:
     explicit ColouredWhite(const Subject&);
 
-    /// What an eye sees of a block of lenses by such lines of sight, in red, green and blue over the panel's own; and the share of
-    /// the lines that are on the screen, of which this is the mean.
-    struct Seen {
+    /// The mean light of a block of lenses in red, green and blue over the panel's own, as an eye sees it by such lines of sight, and
+    /// the share of the lines that are on the screen, over which the mean is taken.
+    struct BlockColour {
         std::array<double, 3> light{};
         double on_screen = 0;
     };
-    Seen look(const Vec3d& eye, const ScreenParts&, const LensBlock&, std::span<const Choice>) const;
+    BlockColour look(const Vec3d& eye, const ScreenParts&, const LensBlock&, std::span<const Choice>) const;
     /// As EyeRays::more_for().
     int more_for(const Vec3d& eye) const { return paths_.front().rays.more_for(eye); }
 
   private:
-    struct Path {
+    /// A path of light and the weights of the channels that take it.
+    struct ColourPath {
         EyeRays rays;
         std::array<double, 3> weight;  // of the channels whose light takes it
     };
     const Panel& panel_;
     std::array<ChannelPixels, 3> pixels_;
-    std::vector<Path> paths_;
+    std::vector<ColourPath> paths_;
 };
 
 /// What tell_colour_uniformity() takes: parts of the work, and about how many lines of sight. 0 where colours do not differ.

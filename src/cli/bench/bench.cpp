@@ -19,11 +19,12 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Group {
+/// A group of benchmarks and the function that runs it.
+struct BenchGroup {
     const char* name;
     void (*run)(Bench&);
 };
-constexpr Group groups[] = {
+constexpr BenchGroup groups[] = {
     {"paper", bench_paper},   {"rendering", bench_rendering}, {"lenses", bench_lenses},     {"colour", bench_colour},
     {"errors", bench_errors}, {"kernels", bench_kernels},     {"threads", bench_threads},   {"gpu", bench_gpu},
     {"sweep", bench_sweep},   {"content", bench_content},     {"pictures", bench_pictures}, {"estimators", bench_estimators},
@@ -31,7 +32,7 @@ constexpr Group groups[] = {
 
 std::vector<std::string> group_names() {
     std::vector<std::string> names;
-    for (const Group& g : groups) names.emplace_back(g.name);
+    for (const BenchGroup& g : groups) names.emplace_back(g.name);
     return names;
 }
 
@@ -105,7 +106,7 @@ void run(const BenchArguments& args) {
     Progress progress(args.work.progress());
     Bench bench(settings, progress);
     try {
-        for (const Group& group : groups) {
+        for (const BenchGroup& group : groups) {
             const std::vector<std::string>& chosen = args.chosen.texts();
             if ((chosen.empty() || std::ranges::count(chosen, group.name) > 0) && !bench.cancelled()) group.run(bench);
         }

@@ -44,7 +44,8 @@ Case rendering(const std::string& name, const Display& display, const Panel& pan
             }};
 }
 
-struct Measured {
+/// The repeated runs of a case.
+struct Timing {
     std::string name;
     std::vector<double> seconds;            // of each run, in ascending order; empty: interrupted before
     std::vector<double> processor_seconds;  // the same of all threads and child processes: other programs' share is not in them
@@ -63,16 +64,16 @@ class Bench {
 
     /// Times all cases once, then again, settings.runs times: what else the machine does then meets all alike. After a signal
     /// what is done is returned.
-    std::vector<Measured> measure(std::string_view stage, const std::vector<Case>&);
+    std::vector<Timing> measure(std::string_view stage, const std::vector<Case>&);
     bool cancelled() const { return progress_.cancelled(); }
     /// For work that is not timed, with a bar of its own.
     Job& job() { return progress_; }
 
     void heading(const std::string& text);
     /// Cases with millions of `unit` ("samples", "rays", "pixels") a second, relative to the first.
-    void rates(const std::string& group, const char* unit, const std::vector<Measured>&);
+    void rates(const std::string& group, const char* unit, const std::vector<Timing>&);
     /// Cases with their seconds and, where they have a count, the rate.
-    void seconds(const std::string& group, const char* unit, const std::vector<Measured>&);
+    void seconds(const std::string& group, const char* unit, const std::vector<Timing>&);
     /// A result in the group's own form.
     void row(const std::string& group, Json values, const std::string& text);
     /// A case or group that this machine cannot run.
@@ -85,14 +86,14 @@ class Bench {
 };
 
 /// Seconds as JSON: median, least, most, how many runs, and the median of processor seconds.
-Json spread(const Measured&);
+Json spread(const Timing&);
 
 /// A case over the same without what it shows: seconds of both and their ratio, as JSON and as text.
 struct Over {
     Json json;
     std::string text;
 };
-Over over(const Measured& with, const Measured& plain);
+Over over(const Timing& with, const Timing& plain);
 
 void bench_rendering(Bench&);
 void bench_lenses(Bench&);

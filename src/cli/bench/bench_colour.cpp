@@ -12,8 +12,8 @@
 namespace lfdsim::cli {
 namespace {
 
-/// A display and the same with colour; and how far its picture is from what it has to be.
-struct Pair {
+/// A display without and with colour, and the error of the latter's picture.
+struct ColourCase {
     const char* name;
     void (*plain)(Display&);
     void (*colour)(Display&);
@@ -49,7 +49,7 @@ double white_error(const Display& plain, const Display& colour, const Rect& crop
     return light(colour) / light(plain) - 1;
 }
 
-constexpr Pair pairs[] = {
+constexpr ColourCase pairs[] = {
     {"asphere, three bands over one", make_asphere,
      [](Display& d) {
          make_asphere(d);
@@ -73,7 +73,7 @@ constexpr Duty estimators_of_colour[] = {{"points", [](Display& d) { d.render.es
                                               d.render.samples = 4;
                                           }}};
 
-void compare(const Pair& pair, const Duty& estimator, Bench& bench) {
+void compare(const ColourCase& pair, const Duty& estimator, Bench& bench) {
     Display displays[2] = {bench_display(), bench_display()};
     pair.plain(displays[0]);
     pair.colour(displays[1]);
@@ -86,7 +86,7 @@ void compare(const Pair& pair, const Duty& estimator, Bench& bench) {
     std::vector<Case> cases;
     for (const Display& d : displays)
         cases.push_back(rendering(pair.name, d, panel, {bench.settings.threads, bench.settings.kernel, crop}));
-    const std::vector<Measured> times = bench.measure("colour", cases);
+    const std::vector<Timing> times = bench.measure("colour", cases);
     if (times.size() < 2) return;  // after a signal
     const auto [values, text] = over(times[1], times[0]);
     Json row{{"name", pair.name}, {"estimator", estimator.name}};
@@ -100,7 +100,7 @@ void compare(const Pair& pair, const Duty& estimator, Bench& bench) {
 
 void bench_colour(Bench& bench) {
     bench.heading("Colour: time of a picture over that of the same without, the middle rows of 3840 x 2160");
-    for (const Pair& pair : pairs)
+    for (const ColourCase& pair : pairs)
         for (const Duty& estimator : estimators_of_colour)
             if (!bench.cancelled()) compare(pair, estimator, bench);
 }

@@ -60,7 +60,7 @@ void compare(const Duty& array, const Texels& panel, Bench& bench) {
     float difference = 0;
     for (std::size_t i = 0; i < wanted.size(); ++i) difference = std::max(difference, std::abs(got[i] - wanted[i]));
 
-    const std::vector<Measured> times = bench.measure("errors", cases);
+    const std::vector<Timing> times = bench.measure("errors", cases);
     for (std::size_t k = 1; k < times.size(); ++k) {
         const auto [values, text] = over(times[k], times[0]);
         Json row{{"name", array.name}, {"errors", times[k].name}};

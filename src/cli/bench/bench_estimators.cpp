@@ -52,16 +52,16 @@ struct Spent {
     const Contender* estimator;
     std::int64_t samples;
     Error error;
-    Measured time;
+    Timing time;
 };
 
-using Clock = double (Measured::*)() const;
+using Clock = double (Timing::*)() const;
 struct Ratio {
     const char *key, *name;
     Clock clock;
 };
-constexpr Ratio ratios_told[] = {{"time_to_papers_error_over_papers", "time", &Measured::median},
-                                 {"processor_time_to_papers_error_over_papers", "processor time", &Measured::processor_median}};
+constexpr Ratio ratios_told[] = {{"time_to_papers_error_over_papers", "time", &Timing::median},
+                                 {"processor_time_to_papers_error_over_papers", "processor time", &Timing::processor_median}};
 
 /// The least seconds among those measured that come to an error.
 std::optional<double> seconds_to(double rmse, const Contender& estimator, const std::vector<Spent>& points, Clock clock) {
@@ -128,7 +128,7 @@ std::vector<Spent> points_of(const View& view, const Image& truth, Bench& bench)
                              if (r.complete) p.error = error_of(r.image, truth);
                              return Run{seconds.count(), double(r.samples)};
                          }});
-    const std::vector<Measured> times = bench.measure("estimators", cases);
+    const std::vector<Timing> times = bench.measure("estimators", cases);
     points.resize(times.size());  // after a signal the last may be missing
     for (std::size_t i = 0; i < times.size(); ++i) points[i].time = times[i];
     return points;

@@ -13,15 +13,16 @@
 namespace lfdsim::cli {
 namespace {
 
-struct Wanted {
+/// A case of the sweep.
+struct GpuCase {
     const char* name;
-    int samples;  // 0: no diffuser, one ray tells all
+    int samples;  // 0: no diffuser, one ray a pixel
 };
-constexpr Wanted wanted[] = {
+constexpr GpuCase gpu_cases[] = {
     {"points, 100 samples", 100}, {"points, 16 samples", 16}, {"points, 4 samples", 4}, {"points, 1 sample", 1}, {"no diffuser", 0},
 };
 
-Display display_of(const Wanted& w) {
+Display display_of(const GpuCase& w) {
     Display d = bench_display();
     d.render.estimator = Estimator::point;
     d.render.samples = std::max(w.samples, 1);
@@ -51,11 +52,11 @@ void bench_gpu(Bench& bench) {
     if (!found.missing.empty()) return bench.not_measured("gpu", "all", found.missing);
     const Texels panel = noise_panel(bench_display());
     const SummedPanel summed(panel, bench.settings.threads);
-    std::vector<std::vector<double>> own(std::size(wanted));
+    std::vector<std::vector<double>> own(std::size(gpu_cases));
     std::vector<Case> cases;
-    for (std::size_t k = 0; k < std::size(wanted); ++k) {
-        const Display d = display_of(wanted[k]);
-        cases.push_back({wanted[k].name, [&, k, d, geometry = resolve(d)](Job& job) {
+    for (std::size_t k = 0; k < std::size(gpu_cases); ++k) {
+        const Display d = display_of(gpu_cases[k]);
+        cases.push_back({gpu_cases[k].name, [&, k, d, geometry = resolve(d)](Job& job) {
                              const Rendering r = render(d, geometry, summed, on_gpu(), job);
                              if (!job.cancelled()) own[k].push_back(r.gpu_seconds);
                              return Run{r.seconds, double(r.samples)};
@@ -65,10 +66,10 @@ void bench_gpu(Bench& bench) {
     Job quiet;
     for (const Case& c : cases) c.run(quiet);
     for (auto& seconds : own) seconds.clear();
-    const std::vector<Measured> all = bench.measure("gpu", cases);
+    const std::vector<Timing> all = bench.measure("gpu", cases);
     if (bench.cancelled()) return;
     // Errors, in the middle rows: those of the same picture by the CPU, whose bits it has.
-    const auto rows = [&](const Wanted& w) {
+    const auto rows = [&](const GpuCase& w) {
         const Display d = display_of(w);
         return render(d, resolve(d), summed, on_gpu(band(d, 64)), bench.job()).image;
     };
@@ -77,8 +78,8 @@ void bench_gpu(Bench& bench) {
         if (all[k].seconds.empty() || own[k].empty()) continue;
         std::sort(own[k].begin(), own[k].end());
         const double median = own[k][own[k].size() / 2];
-        const bool sampled = wanted[k].samples > 0;
-        const double error = sampled ? rmse(rows(wanted[k]), truth) : 0;
+        const bool sampled = gpu_cases[k].samples > 0;
+        const double error = sampled ? rmse(rows(gpu_cases[k]), truth) : 0;
         bench.row("gpu",
                   {{"name", all[k].name},
                    {"gpu", found.gpus.front().name},

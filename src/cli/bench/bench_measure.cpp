@@ -31,10 +31,10 @@ std::string range(double least, double most, int digits) {
 
 }  // namespace
 
-double Measured::median() const { return median_of(seconds); }
-double Measured::processor_median() const { return median_of(processor_seconds); }
+double Timing::median() const { return median_of(seconds); }
+double Timing::processor_median() const { return median_of(processor_seconds); }
 
-Json spread(const Measured& m) {
+Json spread(const Timing& m) {
     return {{"median", m.median()},
             {"least", m.seconds.front()},
             {"most", m.seconds.back()},
@@ -42,7 +42,7 @@ Json spread(const Measured& m) {
             {"processor_median", m.processor_median()}};
 }
 
-Over over(const Measured& with, const Measured& plain) {
+Over over(const Timing& with, const Timing& plain) {
     const double ratio = with.median() / plain.median(), processor_ratio = with.processor_median() / plain.processor_median();
     return {{{"seconds", spread(with)}, {"plain_seconds", spread(plain)}, {"ratio", ratio}, {"processor_ratio", processor_ratio}},
             fmt::format("{:8.4f} s over {:8.4f} s: {:6.3f}, by processor time {:6.3f}", with.median(), plain.median(), ratio,
@@ -51,8 +51,8 @@ Over over(const Measured& with, const Measured& plain) {
 
 Bench::Bench(const BenchSettings& s, Progress& progress) : settings(s), progress_(progress) {}
 
-std::vector<Measured> Bench::measure(std::string_view stage, const std::vector<Case>& cases) {
-    std::vector<Measured> all;
+std::vector<Timing> Bench::measure(std::string_view stage, const std::vector<Case>& cases) {
+    std::vector<Timing> all;
     for (const Case& c : cases) all.push_back({c.name, {}, {}, 0});
     progress_.stage(stage, std::int64_t(cases.size()) * settings.runs);
     Quiet job(progress_);  // the bar counts runs, not the work inside each
@@ -67,8 +67,8 @@ std::vector<Measured> Bench::measure(std::string_view stage, const std::vector<C
             progress_.advance(1);
         }
     progress_.end();
-    std::erase_if(all, [](const Measured& m) { return m.seconds.empty(); });
-    for (Measured& m : all)
+    std::erase_if(all, [](const Timing& m) { return m.seconds.empty(); });
+    for (Timing& m : all)
         for (auto* values : {&m.seconds, &m.processor_seconds}) std::sort(values->begin(), values->end());
     return all;
 }
@@ -84,8 +84,8 @@ void Bench::row(const std::string& group, Json values, const std::string& text) 
     if (!settings.json) print("  " + text + "\n");
 }
 
-void Bench::rates(const std::string& group, const char* unit, const std::vector<Measured>& all) {
-    for (const Measured& m : all) {
+void Bench::rates(const std::string& group, const char* unit, const std::vector<Timing>& all) {
+    for (const Timing& m : all) {
         const double relative = m.rate() / all.front().rate(), millions = m.count / 1e6;
         row(group,
             {{"name", m.name}, {fmt::format("m{}_per_s", unit), m.rate() / 1e6}, {"relative", relative}, {"seconds", spread(m)}},
@@ -94,8 +94,8 @@ void Bench::rates(const std::string& group, const char* unit, const std::vector<
     }
 }
 
-void Bench::seconds(const std::string& group, const char* unit, const std::vector<Measured>& all) {
-    for (const Measured& m : all) {
+void Bench::seconds(const std::string& group, const char* unit, const std::vector<Timing>& all) {
+    for (const Timing& m : all) {
         Json values{{"name", m.name}, {"seconds", spread(m)}};
         std::string text =
             fmt::format("{:<32} {:8.4f} s {:<20}", m.name, m.median(), range(m.seconds.front(), m.seconds.back(), 4));

@@ -120,18 +120,18 @@ void bench_paper(Bench& bench) {
         const std::string text = Child(arguments).finish(job);
         return std::pair(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), text);
     };
-    const std::vector<Measured> all = bench.measure("paper", {{"start of the program",
-                                                               [&](Job& job) {
-                                                                   return Run{timed({"--version"}, job).first, 0};
-                                                               }},
-                                                              {"start to picture", [&](Job& job) {
-                                                                   const auto [seconds, text] = timed(render, job);
-                                                                   if (job.cancelled()) return Run{};
-                                                                   const Json made = Json::parse(text);
-                                                                   samples = made.at("samples");
-                                                                   traced.push_back(made.at("seconds"));
-                                                                   return Run{seconds, samples};
-                                                               }}});
+    const std::vector<Timing> all = bench.measure("paper", {{"start of the program",
+                                                             [&](Job& job) {
+                                                                 return Run{timed({"--version"}, job).first, 0};
+                                                             }},
+                                                            {"start to picture", [&](Job& job) {
+                                                                 const auto [seconds, text] = timed(render, job);
+                                                                 if (job.cancelled()) return Run{};
+                                                                 const Json made = Json::parse(text);
+                                                                 samples = made.at("samples");
+                                                                 traced.push_back(made.at("seconds"));
+                                                                 return Run{seconds, samples};
+                                                             }}});
     bench.seconds("paper", "samples", all);
     if (all.size() < 2) return;
     std::sort(traced.begin(), traced.end());

@@ -79,7 +79,7 @@ void bench_sweep(Bench& bench) {
         Job quiet;
         cases[1].run(quiet);
     }
-    const std::vector<Measured> all = bench.measure("sweep", cases);
+    const std::vector<Timing> all = bench.measure("sweep", cases);
     if (bench.cancelled()) return;
     for (std::size_t n = 0; n < all.size(); ++n) {
         if (all[n].seconds.empty()) continue;

@@ -164,15 +164,15 @@ bool names_measures(const std::string& word) {
 std::string file_name(const std::string& path) { return std::filesystem::path(path).stem(); }
 
 /// What is asked for. Where the first word is a description, MEASURE was left out.
-struct Request {
+struct AnalysisRequest {
     std::vector<const Measure*> wanted;
     std::vector<std::string> paths;
     std::vector<Display> displays;
     AnalysisOptions options;
 };
 
-Request request_of(const AnalyzeArguments& args) {
-    Request request;
+AnalysisRequest request_of(const AnalyzeArguments& args) {
+    AnalysisRequest request;
     Faults faults;
     std::string names = args.measures.text();
     request.paths = args.others.texts();
@@ -228,7 +228,8 @@ struct Outcome {
     std::vector<Problem> problems;
 };
 
-Outcome measure(const AnalyzeArguments& args, const Request& request, const Display& display, const std::filesystem::path& place) {
+Outcome measure(const AnalyzeArguments& args, const AnalysisRequest& request, const Display& display,
+                const std::filesystem::path& place) {
     const std::vector<const Measure*>& wanted = request.wanted;
     const AnalysisOptions& options = request.options;
     std::optional<ContentScene> scene;
@@ -252,7 +253,7 @@ Outcome measure(const AnalyzeArguments& args, const Request& request, const Disp
 }
 
 /// Names of folders, one for each display: its own or its file's, of letters that every file system takes.
-std::vector<std::string> folder_names(const Request& request) {
+std::vector<std::string> folder_names(const AnalysisRequest& request) {
     std::vector<std::string> all;
     for (std::size_t n = 0; n < request.displays.size(); ++n) {
         std::string name = request.displays[n].name;
@@ -269,7 +270,7 @@ std::vector<std::string> folder_names(const Request& request) {
 }
 
 /// Each display in a folder of its own, then all of them in one report. What is finished is kept and reported here, too.
-void side_by_side(const AnalyzeArguments& args, const Request& request) {
+void side_by_side(const AnalyzeArguments& args, const AnalysisRequest& request) {
     const std::filesystem::path place = args.output.text();
     refuse_inputs_in(place);
     const FolderLock lock(place);
@@ -306,7 +307,7 @@ void side_by_side(const AnalyzeArguments& args, const Request& request) {
 }
 
 void run(const AnalyzeArguments& args) {
-    const Request request = request_of(args);
+    const AnalysisRequest request = request_of(args);
     if (request.displays.size() > 1) return side_by_side(args, request);
     const Outcome outcome = measure(args, request, request.displays.front(), args.output.text());
     if (outcome.interrupted)

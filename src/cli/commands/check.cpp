@@ -47,7 +47,7 @@ std::string number_text(double x) {
 
 std::string table_of(const Figure& f) {
     std::vector<std::string> numbers;
-    const bool interval = f.kind == Figure::Kind::interval;
+    const bool interval = f.kind == Figure::Presentation::interval;
     for (const double x : f.values) numbers.push_back(interval && std::isfinite(x) ? fmt::format("{:.4g}", x) : number_text(x));
     if (interval && std::isnan(f.values[0])) numbers.resize(1);
     std::string value = fmt::format("{}", fmt::join(numbers, interval ? " to " : " x "));
@@ -101,7 +101,7 @@ void run(const CheckArguments& args) {
     for (const Figure& f : figures(display, geometry)) add_line(text, table_of(f));
     text += "\nParaxial theory (depths from the lenses, negative behind them)\n";
     for (const Figure& f : figures(display, geometry, paraxial))
-        if (f.kind != Figure::Kind::for_scripts) add_line(text, table_of(f));
+        if (f.kind != Figure::Presentation::for_scripts) add_line(text, table_of(f));
     if (!colours.empty()) text += table_of(colours);
     const std::vector<Figure> largest = largest_errors(display, geometry);
     if (!largest.empty()) text += "\nLargest errors of single lenses\n";

@@ -24,10 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Hands over the pixels of one frame; the stage is that of all.
-class Frame : public Job {
+// Reports the pixels of one frame to the job of all frames, whose stage stays.
+class FrameJob : public Job {
   public:
-    explicit Frame(Job& whole) : whole_(whole) {}
+    explicit FrameJob(Job& whole) : whole_(whole) {}
     void advance(std::int64_t units) override { whole_.advance(units); }
     bool cancelled() const override { return whole_.cancelled(); }
 
@@ -119,7 +119,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
                    std::int64_t(left.size()) * (crop ? std::int64_t(crop->x1 - crop->x0) * (crop->y1 - crop->y0) : columns * rows));
     std::size_t above_target = 0;
     double largest_error = 0;
-    Frame frame(progress);
+    FrameJob frame(progress);
     const auto make = [&](std::size_t i) {
         const Display display = at_frame(w.path, left[i], w.display);
         return render(display, resolve(display), summed, w.rendering, frame);

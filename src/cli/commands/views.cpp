@@ -171,10 +171,11 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
     return grid;
 }
 
-/// Makes the views one after the other.
-class Maker {
+/// Makes the views one after another.
+class ViewsMaker {
   public:
-    Maker(const ViewsArguments& args, const Display& display, const Geometry& geometry, const ViewGrid& grid, const Target& target)
+    ViewsMaker(const ViewsArguments& args, const Display& display, const Geometry& geometry, const ViewGrid& grid,
+               const Target& target)
         : args_(args), display_(display), geometry_(geometry), grid_(grid), target_(target) {
         if (of_display())
             for (int row = 0; row < grid.rows; ++row)
@@ -229,8 +230,8 @@ Picture& add(Picture& all, const Picture& one) {
 fs::path beside_quilt(const ViewsArguments& args) { return fs::path(args.output.path()).replace_extension(".toml"); }
 
 /// The quilt and, beside it, NAME.toml: its geometry.
-Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
-                   Progress& progress) {
+Picture make_quilt(ViewsMaker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid,
+                   const Target& target, Progress& progress) {
     Picture all{Image(target.width * target.name.columns, target.height * target.name.rows)};
     progress.stage("views", grid.columns);
     Quiet one(progress);
@@ -250,8 +251,8 @@ Picture make_quilt(Maker& maker, const ViewsArguments& args, const Display& disp
 }
 
 /// view_0000.png ..., a depth map with each, and views.toml.
-Picture make_folder(Maker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid, const Target& target,
-                    const ViewsFolder& folder, Progress& progress) {
+Picture make_folder(ViewsMaker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid,
+                    const Target& target, const ViewsFolder& folder, Progress& progress) {
     const FolderLock lock(args.output.path());
     folder.check();
     const NumberedPictures& pictures = folder.pictures();
@@ -308,7 +309,7 @@ void run(const ViewsArguments& args) {
     const Geometry geometry = resolve(display);
     const ViewGrid grid = grid_of(wish, target, args, display, geometry);
     if (args.of_display() && !args.panel_image.given()) require_panel_memory(display);
-    Maker maker(args, display, geometry, grid, target);
+    ViewsMaker maker(args, display, geometry, grid, target);
     const ViewsFolder folder(args.output.path(), args.kind.text(), args.depth, grid, target.how, write_display(display),
                              shown_stamp(args.panel_image, args.pattern, display).dump(), args.resume, args.replace);
     if (target.quilt)

@@ -21,26 +21,27 @@ struct Said {
     std::vector<double> values;
 };
 
-struct MadeFor {
+/// The display that a picture was made for, as its metadata describes it.
+struct IntendedDisplay {
     Display display;
     Geometry geometry;
 };
 
 // Anybody may have written it: what the reader of descriptions refuses is not looked at.
-std::optional<MadeFor> made_for(const Metadata& about) {
+std::optional<IntendedDisplay> made_for(const Metadata& about) {
     const auto text = about.find("display");
     if (text == about.end()) return {};
     try {
         Display display = parse_display(text->second, "display");
         Geometry geometry = resolve(display);
-        return MadeFor{std::move(display), std::move(geometry)};
+        return IntendedDisplay{std::move(display), std::move(geometry)};
     } catch (const InputError&) {
         return {};
     }
 }
 
 // All that elemental images depend on but the model, from which lengths on the lens's axis come out however it is described.
-std::vector<Said> pickup_of(const MadeFor& made) {
+std::vector<Said> pickup_of(const IntendedDisplay& made) {
     const auto& [d, g] = made;
     return {{"panel.pixel_pitch_mm", {d.panel.pixel_pitch_mm}},
             {"array.count", {g.lattice.count[0], g.lattice.count[1]}},
@@ -53,7 +54,7 @@ std::vector<Said> pickup_of(const MadeFor& made) {
             {"distance of its vertex from them", {g.vertex_plane_mm - g.rear_principal_mm}}};
 }
 
-std::vector<Said> camera_of(const MadeFor& made) {
+std::vector<Said> camera_of(const IntendedDisplay& made) {
     const Camera& c = made.display.camera;
     return {{"camera.position_mm", {c.position_mm.begin(), c.position_mm.end()}},
             {"camera.target_mm", {c.target_mm.begin(), c.target_mm.end()}},
@@ -89,7 +90,7 @@ bool drawn_for_lenses(const Metadata& about) {
 }  // namespace
 
 void warn_if_for_another(const std::filesystem::path& panel_image, const Metadata& about, const Display& display) {
-    const std::optional<MadeFor> made = made_for(about);
+    const std::optional<IntendedDisplay> made = made_for(about);
     if (!made || !drawn_for_lenses(about)) return;
     std::string what = differences(pickup_of(*made), pickup_of({display, resolve(display)}));
     const auto compare_words = [&](const char* key, std::string_view was, std::string_view is) {
@@ -109,7 +110,7 @@ void warn_if_for_another(const std::filesystem::path& panel_image, const Metadat
 }
 
 void warn_if_other_camera(const std::filesystem::path& a, const std::filesystem::path& b) {
-    const std::optional<MadeFor> first = made_for(read_metadata(a)), second = made_for(read_metadata(b));
+    const std::optional<IntendedDisplay> first = made_for(read_metadata(a)), second = made_for(read_metadata(b));
     if (!first || !second) return;
     const std::string what = differences(camera_of(*first), camera_of(*second));
     if (!what.empty()) spdlog::warn("{} and {}: were seen by different cameras: {}", a.string(), b.string(), what);

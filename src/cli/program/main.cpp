@@ -25,19 +25,19 @@ using namespace lfdsim;
 
 /// A message of the log. File names, keys and what files say come from others: none of it is obeyed by a terminal, and none is
 /// endless.
-class Message : public spdlog::custom_flag_formatter {
+class LogMessage : public spdlog::custom_flag_formatter {
   public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& to) override {
         const std::string text = bounded(printable({message.payload.data(), message.payload.size()}));
         to.append(text.data(), text.data() + text.size());
     }
-    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<Message>(); }
+    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<LogMessage>(); }
 };
 
 void start_log() {
     spdlog::set_default_logger(spdlog::stderr_logger_st("lfdsim"));
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
-    formatter->add_flag<Message>('*').set_pattern("lfdsim: %l: %*");
+    formatter->add_flag<LogMessage>('*').set_pattern("lfdsim: %l: %*");
     spdlog::set_formatter(std::move(formatter));
 }
 

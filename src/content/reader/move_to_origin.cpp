@@ -11,15 +11,15 @@ namespace {
 
 double largest_of(const Place& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// What the meshes of a scene have in common.
-struct Extent {
+/// The extent of all meshes of a scene and the largest numbers in it.
+struct MeshExtent {
     BoxMiddle middle;   // in the scene's coordinates
     double vertex = 0;  // the largest number of a vertex, in its node's coordinates
     // The largest numbers of nodes' own translations. The rounding of one alone moves everything alike.
     double translation = 0, second_translation = 0;
 };
 
-void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4t<double>& above, Extent& all, int depth = 0) {
+void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4t<double>& above, MeshExtent& all, int depth = 0) {
     constexpr int deepest = 1000;
     if (depth > deepest) throw std::runtime_error("has nodes more than 1000 deep");
     const aiMatrix4x4t<double> own(node.mTransformation), here = above * own;
@@ -48,7 +48,7 @@ std::string details_below(double share) {
 }  // namespace
 
 void move_to_origin(aiScene& scene, NotShown& not_shown) {
-    Extent extent;
+    MeshExtent extent;
     add(scene, *scene.mRootNode, {}, extent);
     const Place offset = extent.middle.offset();
     if (offset == Place()) return;

@@ -63,16 +63,16 @@ double spread2_of(const std::vector<float>& a, const std::vector<float>& b) {
     return sum / double(a.size());
 }
 
-/// What two independent pictures by points, a and b, tell of filtered light f at a region's places. The mean of a product of two
-/// independent estimates of an error is the error's square, without what either estimate adds by chance.
-struct Agreement {
+/// The error of filtered light f at a region's places, estimated from two independent pictures by points, a and b: the mean of a
+/// product of two independent estimates of an error is the error's square, without the noise of either.
+struct FilteredError {
     // Each with the standard deviation of the estimate.
     double square = 0, square_noise = 0;   // of a pixel's error: mean of (f - a) (f - b)
     double local2 = 0, local_noise = 0;    // square of the error of the mean over a neighbourhood: mean of products of two places
     double region2 = 0, region_noise = 0;  // the same over the region
 
-    Agreement(const std::vector<float>& f, const std::vector<float>& a, const std::vector<float>& b,
-              const std::vector<Rect>& places) {
+    FilteredError(const std::vector<float>& f, const std::vector<float>& a, const std::vector<float>& b,
+                  const std::vector<Rect>& places) {
         constexpr double all = Limits::places_an_axis * Limits::places_an_axis, pairs = all * (all - 1);
         double error[Limits::places_an_axis][Limits::places_an_axis], sum = 0, squares = 0, fourth = 0;
         std::size_t k = 0;
@@ -122,8 +122,8 @@ struct Agreement {
 
 }  // namespace
 
-Choice::Choice(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
-               const RenderOptions& options)
+EstimatorChoice::EstimatorChoice(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
+                                 const RenderOptions& options)
     : points_(by_points(display), geometry, panel, options) {
     points_.result.estimator = Estimator::filtered;
     for (const EvenPart& part : even_parts(display)) filtered_.emplace_back(part, geometry, panel, options);
@@ -133,19 +133,20 @@ Choice::Choice(const Display& display, const Geometry& geometry, const std::vect
     if (options.target_error && filtered_.size() == 1) strata_ = {2, 4, 8};
 }
 
-Choice::Light Choice::filtered_at(Kernel kernel, const std::vector<Rect>& places, int strata) const {
-    Light sum;
+EstimatorChoice::PixelColours EstimatorChoice::filtered_at(Kernel kernel, const std::vector<Rect>& places, int strata) const {
+    PixelColours sum;
     for (const GaussianBox& part : filtered_) {
         Tile tile = part.work.tile;
         tile.strata = filtered_.size() == 1 ? strata : tile.strata;
-        const Light light = light_at(kernel, tile, places);
+        const PixelColours light = light_at(kernel, tile, places);
         sum.resize(light.size());
         for (std::size_t k = 0; k < light.size(); ++k) sum[k] += part.weight * light[k];
     }
     return sum;
 }
 
-Choice::Light Choice::points_at(Kernel kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition) const {
+EstimatorChoice::PixelColours EstimatorChoice::points_at(Kernel kernel, const std::vector<Rect>& places, std::uint32_t points,
+                                                         int repetition) const {
     optics::RayOrigin view = points_.view;
     view.seed += std::uint64_t(repetition) * 0x9e3779b97f4a7c15u;  // the golden ratio, far from seeds that users count up
     Tile tile = points_.tile;
@@ -154,20 +155,21 @@ Choice::Light Choice::points_at(Kernel kernel, const std::vector<Rect>& places, 
     return light_at(kernel, tile, places);
 }
 
-void Choice::look(Kernel kernel) {
+void EstimatorChoice::look(Kernel kernel) {
     const std::vector<Rect> places = places_in({0, 0, points_.view.width, points_.view.height}, Limits::frame_places_an_axis);
-    const Light a = points_at(kernel, places, Limits::first_points, 3), b = points_at(kernel, places, Limits::first_points, 4);
+    const PixelColours a = points_at(kernel, places, Limits::first_points, 3),
+                       b = points_at(kernel, places, Limits::first_points, 4);
     double squares = 0;  // a dark background does not count
     for (std::size_t k = 0; k < a.size(); ++k) squares += double(a[k]) * b[k];
     light_ = std::max(std::sqrt(squares / double(a.size())), Limits::least_light);
 }
 
-RegionChoice Choice::choose(Kernel kernel, int column, int row) const {
+RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
     const int x0 = column * region_side, y0 = row * region_side;
     const std::vector<Rect> places =
         places_in({x0, y0, std::min(x0 + region_side, points_.view.width), std::min(y0 + region_side, points_.view.height)},
                   Limits::places_an_axis);
-    std::vector<Light> filtered;
+    std::vector<PixelColours> filtered;
     for (const int strata : strata_) filtered.push_back(filtered_at(kernel, places, strata));
 
     const double target = points_.target_error.value_or(0);
@@ -178,13 +180,13 @@ RegionChoice Choice::choose(Kernel kernel, int column, int row) const {
     std::uint32_t points = Limits::first_points;
     const auto error_of = [&](std::uint32_t wanted) { return spread * std::pow(double(wanted) / points, Limits::falls_as); };
     for (;; points *= 4) {
-        const Light a = points_at(kernel, places, points, 1), b = points_at(kernel, places, points, 2);
+        const PixelColours a = points_at(kernel, places, points, 1), b = points_at(kernel, places, points, 2);
         choice.samples += std::int64_t(2 * points * (a.size() / 3));
         spread = std::sqrt(spread2_of(a, b));
         if (given_ && target == 0) rms = mean = error_of(*given_);  // the better of two
         if (!given_ && target == 0 && points == Limits::first_points) rms = std::max(rms, Limits::of_36_points * spread);
         for (; candidate < filtered.size(); ++candidate) {
-            const Agreement of(filtered[candidate], a, b, places);
+            const FilteredError of(filtered[candidate], a, b, places);
             if (of.right(rms, mean)) {
                 choice.strata = strata_[candidate];
                 choice.error = of.rms();
@@ -204,7 +206,7 @@ RegionChoice Choice::choose(Kernel kernel, int column, int row) const {
     return choice;
 }
 
-std::int64_t Choice::render(Kernel kernel, const RegionChoice& choice, const Tile& of) const {
+std::int64_t EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, const Tile& of) const {
     const std::int64_t pixels = std::int64_t(of.x1 - of.x0) * (of.y1 - of.y0);
     std::int64_t samples = 0;
     const auto run = [&](const Work& work, int strata, std::uint32_t points) {
@@ -225,7 +227,7 @@ std::int64_t Choice::render(Kernel kernel, const RegionChoice& choice, const Til
         run(filtered_.front().work, choice.strata, 0);
     } else {
         const std::size_t width = std::size_t(of.x1 - of.x0) * 3;
-        Light sum(std::size_t(pixels) * 3);
+        PixelColours sum(std::size_t(pixels) * 3);
         const auto row = [&](std::int32_t y) {
             return of.out + (std::int64_t(y - of.crop_y) * of.crop_width + of.x0 - of.crop_x) * 3;
         };

@@ -23,12 +23,12 @@ struct RegionChoice {
 };
 
 /// A display's picture by filtered light and by points, and what each region of its frame takes.
-class Choice {
+class EstimatorChoice {
   public:
     static constexpr int region_side = 256;  // pixels of the frame
 
     /// Throws what Work throws.
-    Choice(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
+    EstimatorChoice(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
 
     /// The picture by points; its result is the whole picture's.
     Work& work() { return points_; }
@@ -42,10 +42,10 @@ class Choice {
     std::int64_t render(Kernel, const RegionChoice&, const Tile&) const;
 
   private:
-    using Light = std::vector<float>;  // three numbers a pixel
+    using PixelColours = std::vector<float>;  // three numbers a pixel
 
-    Light filtered_at(Kernel, const std::vector<Rect>& places, int strata) const;
-    Light points_at(Kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition) const;
+    PixelColours filtered_at(Kernel, const std::vector<Rect>& places, int strata) const;
+    PixelColours points_at(Kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition) const;
 
     /// A display whose pictures add up to that by filtered light: one box of the diffuser's bell.
     struct GaussianBox {

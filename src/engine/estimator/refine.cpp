@@ -12,8 +12,8 @@ constexpr int group_side = 4;
 constexpr std::int64_t most_points = 1 << 20;  // a pixel
 constexpr std::uint32_t points_at_once = 16;
 
-/// A block's results so far.
-struct Block {
+/// The sums of a block's points, which grow from pass to pass, with its picture and its error.
+struct BlockSums {
     RefinedBlock at;
     RefinedPicture picture{}, error{};
     std::array<double, refined_side * refined_side * 3> sum{}, squares{};  // points
@@ -24,9 +24,9 @@ class Refinement {
     Refinement(BlockPainter& painter, const Tile& tile, double target, const Job& job)
         : painter_(painter), view_(*tile.view), target_(target), job_(job) {}
 
-    std::vector<Block> run(const std::vector<RefinedBlock>& of) {
+    std::vector<BlockSums> run(const std::vector<RefinedBlock>& of) {
         for (const RefinedBlock& at : of) blocks_.push_back({at});
-        for (Block& b : blocks_) open_.push_back(&b);
+        for (BlockSums& b : blocks_) open_.push_back(&b);
         refine();
         return std::move(blocks_);
     }
@@ -35,7 +35,7 @@ class Refinement {
   private:
     void paint(std::uint64_t repetition) {
         std::vector<RefinedBlock> at;
-        for (const Block* b : open_) at.push_back(b->at);
+        for (const BlockSums* b : open_) at.push_back(b->at);
         pictures_.assign(at.size(), {});
         painter_.paint(at, points_at_once, view_.seed + repetition * 0x9e3779b97f4a7c15u, pictures_);
         for (const RefinedBlock& b : at) samples += std::int64_t(points_at_once) * (right(b) - b.x) * (bottom(b) - b.y);
@@ -48,7 +48,7 @@ class Refinement {
                 if (job_.cancelled()) return;
                 paint(std::uint64_t(repetitions));
                 for (std::size_t k = 0; k < open_.size(); ++k) {
-                    Block& b = *open_[k];
+                    BlockSums& b = *open_[k];
                     for (std::size_t i = 0; i < b.sum.size(); ++i) {
                         const float one = pictures_[k][i];
                         b.sum[i] += one;
@@ -57,7 +57,7 @@ class Refinement {
                 }
             }
             const double n = double(repetitions);
-            for (Block* b : open_) {
+            for (BlockSums* b : open_) {
                 for (std::size_t i = 0; i < b->sum.size(); ++i) {
                     b->picture[i] = float(b->sum[i] / n);
                     b->error[i] = float(std::max(b->squares[i] - b->sum[i] * b->sum[i] / n, 0.0) / (n * (n - 1)));
@@ -70,11 +70,11 @@ class Refinement {
 
     /// Turns the squared errors of the open blocks into errors, and closes the blocks that are good enough.
     void close() {
-        std::erase_if(open_, [&](Block* b) { return pool(*b) <= target_; });
+        std::erase_if(open_, [&](BlockSums* b) { return pool(*b) <= target_; });
     }
 
     /// Replaces each squared error by the root mean square over its group; returns the largest over all groups, colours pooled.
-    double pool(Block& b) const {
+    double pool(BlockSums& b) const {
         double worst = 0;
         for (int y = b.at.y; y < bottom(b.at); y += group_side) {
             for (int x = b.at.x; x < right(b.at); x += group_side) {
@@ -105,8 +105,8 @@ class Refinement {
     const optics::RayOrigin& view_;
     const double target_;
     const Job& job_;
-    std::vector<Block> blocks_;
-    std::vector<Block*> open_;
+    std::vector<BlockSums> blocks_;
+    std::vector<BlockSums*> open_;
     std::vector<RefinedPicture> pictures_;  // of the open blocks
 };
 
@@ -145,9 +145,9 @@ std::optional<std::int64_t> refine_tile(BlockPainter& painter, const Tile& tile,
     for (int y0 = tile.y0 / refined_side * refined_side; y0 < tile.y1; y0 += refined_side)
         for (int x0 = tile.x0 / refined_side * refined_side; x0 < tile.x1; x0 += refined_side) blocks.push_back({x0, y0});
     Refinement refinement(painter, tile, target, job);
-    const std::vector<Block> refined = refinement.run(blocks);
+    const std::vector<BlockSums> refined = refinement.run(blocks);
     if (job.cancelled()) return {};
-    for (const Block& b : refined) {
+    for (const BlockSums& b : refined) {
         for (int y = std::max(b.at.y, tile.y0); y < std::min(b.at.y + refined_side, tile.y1); ++y) {
             for (int x = std::max(b.at.x, tile.x0); x < std::min(b.at.x + refined_side, tile.x1); ++x) {
                 const std::size_t from = std::size_t((y - b.at.y) * refined_side + x - b.at.x) * 3,

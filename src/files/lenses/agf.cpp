@@ -36,7 +36,7 @@ std::optional<double> number(std::string_view word) {
 }
 
 /// A glass as its lines give it.
-struct Entry {
+struct AgfGlass {
     std::string name;
     std::size_t line = 0;  // of its name
     int formula = 0;
@@ -52,7 +52,7 @@ std::vector<double> with_powers(const std::vector<double>& c, std::initializer_l
 }
 
 /// AGF's formula number and its coefficients in the forms of Glass; unknown for numbers that the format does not have.
-void set_formula(const Entry& e, Glass& glass) {
+void set_formula(const AgfGlass& e, Glass& glass) {
     const auto first = [&](Formula formula, std::size_t count) {
         glass.formula = formula;
         glass.coefficients.assign(e.c.begin(), e.c.begin() + std::ptrdiff_t(count));
@@ -184,7 +184,7 @@ class AgfReader {
 
     GlassCatalogue read_;
     std::vector<Problem> problems_;
-    Entry entry_;
+    AgfGlass entry_;
     std::size_t line_ = 1, names_ = 0;
 };
 

@@ -65,18 +65,18 @@ void luma_of_row(const Image& image, int row, int x0, int x1, double* to) {
     for (int x = x0; x < x1; ++x, pixel += 3) *to++ = code_luma(lines, pixel);
 }
 
-using Moments = std::array<std::vector<double>, moments>;
+using WindowMoments = std::array<std::vector<double>, moments>;
 
 /// The eleven rows of moments that a window covers, moved down the picture row by row.
 class Rows {
   public:
     Rows(const Image& a, const Image& b, Rect box) : a_(a), b_(b), box_(box), columns_(std::size_t(box.x1 - box.x0)) {
-        for (Moments& row : rows_)
+        for (WindowMoments& row : rows_)
             for (auto& moment : row) moment.resize(columns_);
         for (auto& moment : down_) moment.resize(columns_);
     }
     void load(int row) {
-        Moments& m = at(row);
+        WindowMoments& m = at(row);
         luma_of_row(a_, row, box_.x0, box_.x1, m[of_a].data());
         luma_of_row(b_, row, box_.x0, box_.x1, m[of_b].data());
         const double *va = m[of_a].data(), *vb = m[of_b].data();
@@ -105,14 +105,14 @@ class Rows {
     }
 
   private:
-    Moments& at(int row) { return rows_[std::size_t(row) % ssim_window]; }
+    WindowMoments& at(int row) { return rows_[std::size_t(row) % ssim_window]; }
 
     const Image &a_, &b_;
     const Rect box_;
     const std::size_t columns_;
     const SsimWeights weights_ = ssim_weights();
-    std::array<Moments, ssim_window> rows_;
-    Moments down_;
+    std::array<WindowMoments, ssim_window> rows_;
+    WindowMoments down_;
 };
 
 }  // namespace

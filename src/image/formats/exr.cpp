@@ -53,10 +53,11 @@ Names channel_names(const std::string& layer) {
     return {prefix + "R", prefix + "G", prefix + "B"};
 }
 
-struct Window {
+/// The data window or the display window of a file.
+struct PixelWindow {
     std::int64_t x0, y0, columns, rows;
 
-    explicit Window(const Imath::Box2i& box)
+    explicit PixelWindow(const Imath::Box2i& box)
         : x0(box.min.x), y0(box.min.y), columns(std::int64_t(box.max.x) - x0 + 1), rows(std::int64_t(box.max.y) - y0 + 1) {}
 };
 
@@ -86,7 +87,7 @@ double most_packed(Imf::Compression compression) {
     }
 }
 
-void check_windows(const InputFile& file, const Window& data, const Window& display, Imf::Compression compression) {
+void check_windows(const InputFile& file, const PixelWindow& data, const PixelWindow& display, Imf::Compression compression) {
     file.check_size(data.columns, data.rows, most_packed(compression) / 6);  // three half floats are 6 bytes
     // Parts of the frame without data are black and take no bytes, so a small file may claim a large frame:
     // up to 2^25 pixels (7680 x 4320 are fewer) or 64 times the data.
@@ -97,7 +98,7 @@ void check_windows(const InputFile& file, const Window& data, const Window& disp
 }
 
 /// Copies what lies in both windows; outside the data the picture stays black. Alpha, if there is any, must be 1 where data are.
-void read_rows(const InputFile& file, Imf::InputFile& exr, const Names& names, const Window& data, const Window& display,
+void read_rows(const InputFile& file, Imf::InputFile& exr, const Names& names, const PixelWindow& data, const PixelWindow& display,
                const Pixels& pixels) {
     constexpr const char* alpha = "A";
     const std::int64_t block_rows = std::clamp(most_block_pixels / data.columns, std::int64_t(1), most_block_rows);
@@ -252,7 +253,7 @@ std::int64_t rows_together(Imf::Compression compression) {
 }
 
 /// The table of blocks has 8 bytes for each, and OpenEXR takes memory for whole blocks, several at a time.
-void check_blocks(const InputFile& file, const Imf::Header& header, const Window& data) {
+void check_blocks(const InputFile& file, const Imf::Header& header, const PixelWindow& data) {
     constexpr double usual = 1 << 24;
     std::int64_t columns = data.columns, rows = rows_together(header.compression());
     double blocks = std::ceil(double(data.rows) / double(rows));
@@ -281,8 +282,8 @@ Imf::Header checked_header(const InputFile& file) {
     std::memcpy(&version, &start[4], sizeof version);
     Imf::Header header;
     header.readFrom(stream, version);
-    const Window data(header.dataWindow());
-    check_windows(file, data, Window(header.displayWindow()), header.compression());
+    const PixelWindow data(header.dataWindow());
+    check_windows(file, data, PixelWindow(header.displayWindow()), header.compression());
     check_blocks(file, header, data);
     return header;
 }
@@ -302,7 +303,7 @@ void read_channels(const InputFile& file, const Names& names, bool needed, const
         check_channels(file, channels, names);
         if (const Imf::Channel* const alpha = channels.findChannel("A"); alpha && (alpha->xSampling != 1 || alpha->ySampling != 1))
             file.refuse("has a subsampled channel A");
-        const Window data(header.dataWindow()), display(header.displayWindow());
+        const PixelWindow data(header.dataWindow()), display(header.displayWindow());
         Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
         read_rows(file, exr, names, data, display, allocate(display.columns, display.rows));
     } catch (const Iex::BaseExc& error) {

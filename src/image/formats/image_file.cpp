@@ -197,7 +197,7 @@ std::optional<Image> read_layer(const fs::path& path, const std::string& name) {
 }
 
 std::array<std::int64_t, 2> picture_size(const fs::path& path) {
-    struct Known {
+    struct PictureSize {
         std::array<std::int64_t, 2> size;
     };
     const Format format = format_to_read(path);
@@ -205,10 +205,10 @@ std::array<std::int64_t, 2> picture_size(const fs::path& path) {
     try {
         within_memory(file, [&] {
             read(file, format, Encoding::srgb, Values::radiance, [](std::int64_t columns, std::int64_t rows) -> Pixels {
-                throw Known{{columns, rows}};
+                throw PictureSize{{columns, rows}};
             });
         });
-    } catch (const Known& known) {
+    } catch (const PictureSize& known) {
         return known.size;
     }
     file.refuse("has no size");

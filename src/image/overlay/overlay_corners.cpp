@@ -45,9 +45,9 @@ Corners moved(Corners corners, const Vector& by) {
 }
 
 /// One level of blur: the mean of the channels of both pictures.
-class Level {
+class BlurLevel {
   public:
-    Level(std::vector<float> photograph, std::vector<float> view, const Aligned& aligned, const Corners& corners, double sigma)
+    BlurLevel(std::vector<float> photograph, std::vector<float> view, const Aligned& aligned, const Corners& corners, double sigma)
         : photograph_(std::move(photograph)),
           view_(std::move(view)),
           aligned_(aligned),
@@ -175,13 +175,13 @@ Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& ph
     const double click_px = 0.4 * reach;  // how accurately a corner is known before the fit, in the view's grid
     Vector by{};
     for (double sigma = std::max(1.0, reach); sigma >= 1 && !job.cancelled(); sigma /= 2) {
-        const Level level(light, simulated, photograph, in_view, sigma);
-        Level::Sums here = level.sums(by);
+        const BlurLevel level(light, simulated, photograph, in_view, sigma);
+        BlurLevel::Sums here = level.sums(by);
         if (here.pixels == 0) break;
         // After the blur the noise of neighbours is correlated: so many pixels count as one.
         const double alike = std::max(1.0, 4 * pi * sigma * sigma / level.pixels_per_sample());
         const double known = std::max(here.squares, 1e-12 * here.light) / here.pixels * alike / (click_px * click_px);
-        const auto cost = [&](const Level::Sums& sums, const Vector& moved_by) {
+        const auto cost = [&](const BlurLevel::Sums& sums, const Vector& moved_by) {
             return sums.squares / sums.pixels + known / here.pixels * dot(moved_by, moved_by);
         };
         for (int step = 0; step < 20 && !job.cancelled(); ++step) {
@@ -193,7 +193,7 @@ Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& ph
             Vector next = solve(here.normal, here.right);
             for (std::size_t k = 0; k < unknowns; ++k) next[k] += by[k];
             next = limited(next);
-            const Level::Sums there = level.sums(next);
+            const BlurLevel::Sums there = level.sums(next);
             if (!(cost(there, next) < cost(here, by))) break;
             double most = 0;
             for (std::size_t k = 0; k < unknowns; ++k) most = std::max(most, std::abs(next[k] - by[k]));

@@ -16,14 +16,14 @@ using Corners = ApertureShape::Corners;  // mm from a lens's axis, in the array'
 
 /// `length_mm`: of strips, as far as they are drawn.
 Corners cell_of(const Lattice<double>& l, double length_mm) {
-    using Form = ApertureShape::Form;
-    const Form form = l.hexagonal ? Form::hexagon : l.strips ? Form::slit : Form::rectangle;
+    using ApertureForm = ApertureShape::ApertureForm;
+    const ApertureForm form = l.hexagonal ? ApertureForm::hexagon : l.strips ? ApertureForm::slit : ApertureForm::rectangle;
     return ApertureShape{form, {l.pitch[0], l.pitch[1]}}.corners(length_mm);
 }
 
 }  // namespace
 
-void draw_front(Drawing& drawing, Point corner, double side, const Display& d, const Geometry& g) {
+void draw_front(SvgDrawing& drawing, Point corner, double side, const Display& d, const Geometry& g) {
     const Lattice<double>& l = g.lattice;
     const double across = 2.5 * (l.strips ? l.pitch[0] : std::max(l.pitch[0], l.pitch[1])), scale = side / across;
     const optics::Cell<double> middle = optics::base_cell(l, {std::floor(l.count[0] / 2), std::floor(l.count[1] / 2)});

@@ -8,6 +8,6 @@ namespace lfdsim {
 
 /// The lens in the middle of the array and those about it, turned as they are, in a square with this upper left corner; its side in
 /// pixels. The cells' borders are lines, clear apertures filled; the middle lens stands out.
-void draw_front(Drawing&, Point corner, double side, const Display&, const Geometry&);
+void draw_front(SvgDrawing&, Point corner, double side, const Display&, const Geometry&);
 
 }  // namespace lfdsim

@@ -55,7 +55,7 @@ inline SidePath through_array(const Display& d, const Geometry& g, SideRay ray) 
 }
 
 /// Draws a path and, if its ray came through, the ray on to to_z.
-inline void draw_path(Drawing& drawing, const SideScale& scale, const SidePath& path, double to_z, std::string style) {
+inline void draw_path(SvgDrawing& drawing, const SideScale& scale, const SidePath& path, double to_z, std::string style) {
     std::vector<Point> points;
     for (const auto& [y, z] : path.points) points.push_back(scale.at(y, z));
     if (path.through && (to_z - path.last.z) * path.last.dz > 0) points.push_back(scale.at(path.last.y_at(to_z), to_z));

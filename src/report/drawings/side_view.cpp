@@ -50,7 +50,7 @@ SideScale scale_for(const Subject& s, const DrawnPlanes& planes, double top, dou
     return {side + 0.5 * (drawn - per_z * (last - first)), top + 0.5 * high, first, 0.5 * (up + down), per_z, per_y};
 }
 
-void draw_backward(Drawing& drawing, const SideScale& scale, const Subject& s) {
+void draw_backward(SvgDrawing& drawing, const SideScale& scale, const Subject& s) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const Vec3d& eye = d.camera.position_mm;
@@ -71,7 +71,7 @@ void draw_backward(Drawing& drawing, const SideScale& scale, const Subject& s) {
 
 /// The light of the pixel behind the middle lens, up to its image; where that is not real, some way forward and, dashed, back to
 /// where the light seems to come from.
-void draw_pixel(Drawing& drawing, const SideScale& scale, const Subject& s, const DrawnPlanes& planes) {
+void draw_pixel(SvgDrawing& drawing, const SideScale& scale, const Subject& s, const DrawnPlanes& planes) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const double y = lens_near(g.lattice, 0).y_mm, half = 0.45 * g.clear_aperture_mm[1];
@@ -136,7 +136,8 @@ std::string side_view_svg(const Subject& display, SideFrame* frame) {
     if (g.diffuser_z_mm) lengths.emplace_back(g.vertex_plane_mm, *g.diffuser_z_mm, "diffuser " + mm(d.diffuser->distance_mm));
     lengths.emplace_back(0, eye[2], "eye " + mm(eye[2]));
 
-    Drawing drawing(width, bottom + 26 + 24 * double(lengths.size()) + 16, "The display from the side, from the panel to the eye");
+    SvgDrawing drawing(width, bottom + 26 + 24 * double(lengths.size()) + 16,
+                       "The display from the side, from the panel to the eye");
     const auto upright = [&](double z, double low, double up, const char* style) {
         drawing.line(scale.at(low, z), scale.at(up, z), style);
     };

@@ -16,14 +16,15 @@ constexpr double lens_page_width = 960, left = 76, top = 16, notes_width = 236, 
 double rim_z(const PlacedSurface& f, double rim) { return f.z_mm + sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, rim); }
 
 /// The part of the display that is drawn: lenses first .. last, z from .. to.
-struct Window {
+struct DrawnWindow {
     std::int64_t first, last;
     double from, to, low, high;  // mm
 };
 
-Window window_of(const Display& d, const Geometry& g) {
+DrawnWindow window_of(const Display& d, const Geometry& g) {
     const SideLens middle = lens_near(g.lattice, 0);
-    Window w{std::max<std::int64_t>(middle.row - 1, 0), std::min(middle.row + 1, std::int64_t(g.lattice.count[1]) - 1), 0, 0, 0, 0};
+    DrawnWindow w{
+        std::max<std::int64_t>(middle.row - 1, 0), std::min(middle.row + 1, std::int64_t(g.lattice.count[1]) - 1), 0, 0, 0, 0};
     const double p = d.array.pitch_mm[1], depth = g.top_z_mm - std::min(0., g.base_z_mm);
     w.low = lens_at(g.lattice, w.first).y_mm - 0.6 * p;
     w.high = lens_at(g.lattice, w.last).y_mm + 0.6 * p;
@@ -47,7 +48,7 @@ void add_surface(std::vector<Point>& outline, const SideScale& scale, const Disp
     }
 }
 
-void draw_lens(Drawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y) {
+void draw_lens(SvgDrawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y) {
     if (g.surfaces.front().form == SurfaceForm::thin) {
         const double half = 0.5 * g.clear_aperture_mm[1];
         drawing.line(scale.at(y - half, g.vertex_plane_mm), scale.at(y + half, g.vertex_plane_mm), glass_style);
@@ -71,7 +72,8 @@ void draw_lens(Drawing& drawing, const SideScale& scale, const Display& d, const
 }
 
 /// Draws what is between two lenses, y the border of their cells: black walls, or the glass of a plate.
-void draw_between(Drawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y, bool upper, bool lower) {
+void draw_between(SvgDrawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y, bool upper,
+                  bool lower) {
     const double half = 0.5 * d.array.pitch_mm[1];
     double rim = g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
     if (d.array.aperture == Aperture::cell) rim = half;
@@ -87,7 +89,7 @@ void draw_between(Drawing& drawing, const SideScale& scale, const Display& d, co
                       d.array.surround == Surround::plate ? glass_style : black_style);
 }
 
-void draw_rays(Drawing& drawing, const SideScale& scale, const Subject& s, const Window& w) {
+void draw_rays(SvgDrawing& drawing, const SideScale& scale, const Subject& s, const DrawnWindow& w) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
     const SideLens middle = lens_near(g.lattice, 0), lower = lens_at(g.lattice, w.first), upper = lens_at(g.lattice, w.last);
@@ -152,7 +154,7 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
     const Subject s = section_of(display);
     const Display& d = s.display();
     const Geometry& g = s.geometry();
-    const Window w = window_of(d, g);
+    const DrawnWindow w = window_of(d, g);
     const double per_z = lens_drawn / (w.to - w.from), per_y = std::max(per_z, 160 / (w.high - w.low)),
                  high = per_y * (w.high - w.low);
     const SideScale scale{0, 0.5 * high, w.from, 0.5 * (w.low + w.high), per_z, per_y};
@@ -161,8 +163,8 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
     if (shows_a_row(display.display())) notes.push_back("section along a row of the array");
     // Below the notes and the rays' names, the lenses from the front
     const double front_top = top + 16 + 21. * (double(notes.size()) + 2) + (scale.true_to_scale() ? 0 : 21) + 26;
-    Drawing drawing(lens_page_width, std::max(top + high + 60, front_top + front_side + 10),
-                    "Lenses of the display from the side, with their rays");
+    SvgDrawing drawing(lens_page_width, std::max(top + high + 60, front_top + front_side + 10),
+                       "Lenses of the display from the side, with their rays");
     drawing.add(fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"0 0 {2} {3}\" overflow=\"hidden\">\n",
                             px(left), px(top), px(lens_drawn), px(high)));
     for (std::int64_t row = w.first; row <= w.last; ++row) draw_lens(drawing, scale, d, g, lens_at(g.lattice, row).y_mm);

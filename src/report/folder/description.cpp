@@ -132,7 +132,7 @@ std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory&
                        : !before ? inside
                                  : "no depth on this side of the lenses is sharp by theory";
     const auto ends = [&](const DepthSpan& span) { return before ? std::vector{span.low, span.high} : std::vector{nan, nan}; };
-    constexpr auto interval = Figure::Kind::interval;
+    constexpr auto interval = Figure::Presentation::interval;
     constexpr const char *lens = "a lens's spot D |1 - z/L| is no wider than the pitch p", *pixel = "|1/z - 1/L| <= a / (g D)";
     const SharpRange by_lens = sharp_by_lens(d, g, t, eye), by_pixel = sharp_by_pixel(g, t, eye);
     const double at_lenses = before ? lens_limit_per_mm(g, t, 0, eye) : nan,
@@ -200,8 +200,8 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
          "depth of field, as published",
          "2 |L| P_I / D, for ranges less deep than L is far",
          pinhole_lens ? pinhole : "the published formula is for a range about L that does not reach the lenses"},
-        {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, "", "1 / (1/L + a / (g D))", pinhole, Figure::Kind::for_scripts},
-        {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, "", "1 / (1/L - a / (g D))", pinhole, Figure::Kind::for_scripts},
+        {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, "", "1 / (1/L + a / (g D))", pinhole, Figure::Presentation::for_scripts},
+        {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, "", "1 / (1/L - a / (g D))", pinhole, Figure::Presentation::for_scripts},
         {"depth_near_diopters",
          {1000 * t.depth_near_per_mm},
          "depth of field by the pixel, nearest 1/z",
@@ -265,7 +265,7 @@ Json to_json(const std::vector<Figure>& all) {
     Json json = Json::object();
     for (const Figure& f : all) {
         const bool of_channels = f.values.size() == 3;
-        if (f.kind == Figure::Kind::interval) {
+        if (f.kind == Figure::Presentation::interval) {
             json[f.name] = std::isnan(f.values[0]) ? Json() : numbers_json(f.values);
             continue;
         }
@@ -277,7 +277,7 @@ Json to_json(const std::vector<Figure>& all) {
 
 void add_notes(const std::vector<Figure>& all, const std::string& part, Json& notes) {
     for (const Figure& f : all)
-        for (std::size_t k = 0; k < (f.kind == Figure::Kind::interval ? 1 : f.values.size()); ++k)
+        for (std::size_t k = 0; k < (f.kind == Figure::Presentation::interval ? 1 : f.values.size()); ++k)
             if (std::isnan(f.values[k])) notes[part + "." + (k == 0 ? f.name : name_along_y(f.name))] = f.undefined;
 }
 

@@ -23,9 +23,13 @@ struct Figure {
     const char* name;
     std::vector<double> values;  // infinite where there is no finite one; NaN where it is undefined; two: along the array's x and y
     const char* meaning;
-    const char* formula = "";                                                 // how it is computed; symbols as in docs/model.md
-    const char* undefined = "";                                               // why there is none, where the value is NaN
-    enum class Kind { numbers, interval, for_scripts } kind = Kind::numbers;  // interval: of two ends; for_scripts: in JSON alone
+    const char* formula = "";    // how it is computed; symbols as in docs/model.md
+    const char* undefined = "";  // why there is none, where the value is NaN
+    enum class Presentation {
+        numbers,
+        interval,
+        for_scripts
+    } kind = Presentation::numbers;  // interval: of two ends; for_scripts: in JSON alone
 };
 std::vector<Figure> figures(const Display&, const Geometry&);
 std::vector<Figure> figures(const Display&, const Geometry&, const Theory&);

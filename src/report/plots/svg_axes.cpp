@@ -58,7 +58,7 @@ double room_beside(const PlotAxis& axis) {
     return widest + 36;
 }
 
-void PlotFrame::draw(Drawing& drawing, const std::string& x_label, const std::string& y_label, bool grid) const {
+void PlotFrame::draw(SvgDrawing& drawing, const std::string& x_label, const std::string& y_label, bool grid) const {
     const char *thin = "stroke-opacity=\"0.14\"", *small = "font-size=\"12\" text-anchor=\"middle\"";
     for (const double tick : x.ticks()) {
         const double at_x = at(tick, y.low())[0];

@@ -43,7 +43,7 @@ struct PlotFrame {
     double right() const { return left + width; }
     double bottom() const { return top + height; }
     /// Grid, ticks, numbers and labels.
-    void draw(Drawing&, const std::string& x_label, const std::string& y_label, bool grid) const;
+    void draw(SvgDrawing&, const std::string& x_label, const std::string& y_label, bool grid) const;
 };
 
 /// Pixels that the numbers and the label of an axis need beside the frame.

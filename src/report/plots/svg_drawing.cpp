@@ -81,7 +81,7 @@ std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<co
     return places;
 }
 
-Drawing::Drawing(double width, double height, std::string_view title) {
+SvgDrawing::SvgDrawing(double width, double height, std::string_view title) {
     const std::string name = escaped(title);
     head_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\" "
@@ -90,9 +90,9 @@ Drawing::Drawing(double width, double height, std::string_view title) {
         px(width), px(height), name);
 }
 
-void Drawing::line(Point from, Point to, std::string_view style) { path(std::array{from, to}, style); }
+void SvgDrawing::line(Point from, Point to, std::string_view style) { path(std::array{from, to}, style); }
 
-void Drawing::path(std::span<const Point> points, std::string_view style, bool closed) {
+void SvgDrawing::path(std::span<const Point> points, std::string_view style, bool closed) {
     if (points.empty()) return;
     std::string d;
     for (const auto& [x, y] : points) d += fmt::format("{}{} {}", d.empty() ? "M" : " ", px(x), px(y));
@@ -100,18 +100,18 @@ void Drawing::path(std::span<const Point> points, std::string_view style, bool c
     body_ += fmt::format("<path d=\"{}{}\" {}{}/>\n", d, closed ? "z" : "", coloured ? "" : "stroke=\"currentColor\" ", style);
 }
 
-void Drawing::rectangle(Point corner, double width, double height, std::string_view style) {
+void SvgDrawing::rectangle(Point corner, double width, double height, std::string_view style) {
     body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}/>\n", px(corner[0]), px(corner[1]), px(width),
                          px(height), style);
 }
 
-void Drawing::text(Point at, std::string_view text, std::string_view style) {
+void SvgDrawing::text(Point at, std::string_view text, std::string_view style) {
     const bool coloured = style.find("fill=") != style.npos;
     body_ += fmt::format("<text x=\"{}\" y=\"{}\" {}{}>{}</text>\n", px(at[0]), px(at[1]), coloured ? "" : "fill=\"currentColor\" ",
                          style, escaped(text));
 }
 
-void Drawing::dimension(Point from, Point to, std::string_view label) {
+void SvgDrawing::dimension(Point from, Point to, std::string_view label) {
     const double dx = to[0] - from[0], dy = to[1] - from[1], length = std::hypot(dx, dy);
     const bool upright = std::abs(dy) > std::abs(dx);
     line(from, to, "stroke-width=\"0.8\"");

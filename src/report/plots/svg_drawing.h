@@ -32,11 +32,12 @@ std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<co
 /// Pixels, y down.
 using Point = std::array<double, 2>;
 
-/// `style`: further attributes, `stroke="#1f7fc0" stroke-width="2"`. Without one, lines are in the colour of text.
-class Drawing {
+/// An SVG picture that is drawn line by line. `style`: further attributes, `stroke="#1f7fc0" stroke-width="2"`; without one, lines
+/// are in the colour of text.
+class SvgDrawing {
   public:
     /// `title`: what is drawn, for screen readers.
-    Drawing(double width, double height, std::string_view title);
+    SvgDrawing(double width, double height, std::string_view title);
 
     void line(Point from, Point to, std::string_view style);
     void path(std::span<const Point>, std::string_view style, bool closed = false);

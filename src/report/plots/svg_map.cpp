@@ -87,7 +87,7 @@ std::string svg(const ColourMap& map) {
     const std::vector<std::string> title = wrapped(map.title, 17, map_width - 24);
     const double top = 20 + 20 * double(title.size());
     const PlotFrame frame{left, top, wide, high, x, y};
-    Drawing drawing(map_width, frame.bottom() + room_below, map.title);
+    SvgDrawing drawing(map_width, frame.bottom() + room_below, map.title);
     for (std::size_t k = 0; k < title.size(); ++k)
         drawing.text({12, 22 + 20 * double(k)}, title[k], "font-size=\"15\" font-weight=\"600\"");
     drawing.add(picture(png_of(map), {left, top}, wide, high));

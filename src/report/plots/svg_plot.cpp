@@ -128,7 +128,7 @@ struct MarkLabels {
     }
 };
 
-void draw_series(Drawing& drawing, const PlotFrame& frame, const Series& s, std::size_t k) {
+void draw_series(SvgDrawing& drawing, const PlotFrame& frame, const Series& s, std::size_t k) {
     std::vector<Point> run, alone;
     const auto finish = [&] {
         if (s.dots || run.size() == 1)
@@ -148,7 +148,7 @@ void draw_series(Drawing& drawing, const PlotFrame& frame, const Series& s, std:
 }
 
 /// A row for each bar, its label at the left, over what of it is drawn.
-void draw_bars(Drawing& drawing, const PlotFrame& frame, const std::vector<PlotBar>& bars, double top) {
+void draw_bars(SvgDrawing& drawing, const PlotFrame& frame, const std::vector<PlotBar>& bars, double top) {
     for (std::size_t k = 0; k < bars.size(); ++k) {
         const double row = top + bar_row * double(k);
         bool any = false;
@@ -201,7 +201,7 @@ std::string svg(const Plot& plot, double width) {
     const double top = bars_top + bar_row * double(plot.bars.size()) + mark_row * marks.rows + 6;
     const PlotFrame frame{left, top, width - left - right, area, x, y};
 
-    Drawing drawing(width, frame.bottom() + room_below, plot.title);
+    SvgDrawing drawing(width, frame.bottom() + room_below, plot.title);
     for (std::size_t k = 0; k < title.size(); ++k)
         drawing.text({12, 22 + row_height * double(k)}, title[k], "font-size=\"15\" font-weight=\"600\"");
     for (const Legend::Entry& e : legend.entries) {

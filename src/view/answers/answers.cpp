@@ -24,10 +24,10 @@ Json json_of(const std::vector<Figure>& figures) {
     Json all = Json::array();
     const Json values = to_json(figures);
     for (const Figure& f : figures) {
-        if (f.kind == Figure::Kind::for_scripts) continue;
+        if (f.kind == Figure::Presentation::for_scripts) continue;
         all.push_back(
             {{"name", f.name}, {"label", f.meaning}, {"unit", unit_of(f.name)}, {"value", values[f.name]}, {"doc", f.formula}});
-        if (f.kind == Figure::Kind::interval) all.back()["interval"] = true;
+        if (f.kind == Figure::Presentation::interval) all.back()["interval"] = true;
     }
     return all;
 }
@@ -97,7 +97,7 @@ Json side(const Display& display, const std::string& name) {
 std::string model_file(const Library& library, const Wanted& wanted, const Display& display) {
     if (wanted.shown.kind == Shown::Kind::model)
         return wanted.shown.name == built_in_spheres ? wanted.shown.name
-                                                     : library.file(wanted.shown.name, Library::Kind::model).string();
+                                                     : library.file(wanted.shown.name, Library::FileKind::model).string();
     return library.model(display);
 }
 

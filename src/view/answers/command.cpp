@@ -15,9 +15,9 @@ std::string shown_option(const Library& library, const Shown& shown) {
         case Shown::Kind::model:
             return " --model " + (shown.name == built_in_spheres
                                       ? shown.name
-                                      : shell_file(library.file(shown.name, Library::Kind::model).string()));
+                                      : shell_file(library.file(shown.name, Library::FileKind::model).string()));
         case Shown::Kind::panel_image:
-            return " --panel-image " + shell_file(library.file(shown.name, Library::Kind::picture).string());
+            return " --panel-image " + shell_file(library.file(shown.name, Library::FileKind::picture).string());
         case Shown::Kind::pattern:
             return " --pattern " + shell_word(shown.name);
         case Shown::Kind::start:

@@ -66,15 +66,15 @@ bool ends_in(const fs::path& path, std::initializer_list<std::string_view> endin
 }
 
 struct Served {
-    Library::Kind kind;
+    Library::FileKind kind;
     const char* is;  // "a model"
     std::initializer_list<std::string_view> endings;
 };
 constexpr Served served[] = {
-    {Library::Kind::display, "a description of a display", {".toml"}},
-    {Library::Kind::model, "a model", {".3ds",  ".3mf", ".amf", ".ase", ".blend", ".cob", ".dae", ".dxf", ".fbx", ".glb",
-                                       ".gltf", ".hmp", ".ifc", ".lwo", ".obj",   ".off", ".ply", ".smd", ".stl", ".x"}},
-    {Library::Kind::picture, "a picture", {".png", ".jpg", ".jpeg", ".exr", ".npy"}},
+    {Library::FileKind::display, "a description of a display", {".toml"}},
+    {Library::FileKind::model, "a model", {".3ds",  ".3mf", ".amf", ".ase", ".blend", ".cob", ".dae", ".dxf", ".fbx", ".glb",
+                                           ".gltf", ".hmp", ".ifc", ".lwo", ".obj",   ".off", ".ply", ".smd", ".stl", ".x"}},
+    {Library::FileKind::picture, "a picture", {".png", ".jpg", ".jpeg", ".exr", ".npy"}},
 };
 
 /// Whether a text means to be a display's description: the key "schema" stands above its first table. Nothing else is looked at.
@@ -98,19 +98,19 @@ bool is_description(std::string_view text) {
 bool meant_as_description(const fs::path& path) { return is_description(read_text(path)); }
 
 /// Adds a file that a page could show: of a model only the ending is looked at, of a picture the header. False: it could not.
-bool add(Library::Files& found, const fs::path& path, const std::string& name, Library::Kind kind, const Display& shown) {
+bool add(Library::Files& found, const fs::path& path, const std::string& name, Library::FileKind kind, const Display& shown) {
     try {
-        if (kind == Library::Kind::picture && picture_size(path) != shown.panel.pixels) return false;
-        if (kind == Library::Kind::display) {
+        if (kind == Library::FileKind::picture && picture_size(path) != shown.panel.pixels) return false;
+        if (kind == Library::FileKind::display) {
             if (!meant_as_description(path)) return false;
             found.eyes_mm[name] = read_display(path).camera.position_mm;
         }
     } catch (const InputError&) {
         return false;
     }
-    (kind == Library::Kind::display ? found.displays
-     : kind == Library::Kind::model ? found.models
-                                    : found.pictures)
+    (kind == Library::FileKind::display ? found.displays
+     : kind == Library::FileKind::model ? found.models
+                                        : found.pictures)
         .push_back(name);
     return true;
 }
@@ -157,14 +157,14 @@ Library::Library(Start start, fs::path folder) : start_(std::move(start)), folde
 
 std::string Library::model(const Display& display) const { return start_.model.empty() ? model_of(display) : start_.model; }
 
-fs::path Library::file(const std::string& name, Kind kind) const {
+fs::path Library::file(const std::string& name, FileKind kind) const {
     const fs::path path = folder_ / relative(name);
     if (std::error_code error; !fs::is_regular_file(resolve_inside(path, folder_, name), error))
         throw InputError(quoted(name), "is not a plain file");
     const Served& is = *std::find_if(std::begin(served), std::end(served), [&](const Served& s) { return s.kind == kind; });
     if (!ends_in(path, is.endings))
         throw InputError(quoted(name), fmt::format("is not {}; those end in {}", is.is, fmt::join(is.endings, ", ")));
-    if (kind == Kind::display && !meant_as_description(path))
+    if (kind == FileKind::display && !meant_as_description(path))
         throw InputError(quoted(name), "is not a description of a display: those begin with schema = 1");
     return path.lexically_normal();
 }
@@ -207,7 +207,7 @@ Library::Files Library::files(const Display& display) const {
 }
 
 Library::Description Library::description(const Wanted& wanted, int eye) const {
-    Description description{wanted.display.empty() ? start_.display : file(wanted.display, Kind::display), start_.set};
+    Description description{wanted.display.empty() ? start_.display : file(wanted.display, FileKind::display), start_.set};
     for (const std::string& one : wanted.set) {
         check_key(one);
         description.set.push_back(one);

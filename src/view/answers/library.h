@@ -28,11 +28,11 @@ class Library {
     /// The model that is shown with a description unless a page names another: --model, or the description's, or scene_of_objects.
     std::string model(const Display&) const;
 
-    enum class Kind { display, model, picture };
+    enum class FileKind { display, model, picture };
     /// The file that a page names, inside the folder. Throws InputError if it is outside (.., absolute, links that lead out), is
     /// not a plain file, does not exist, or is of another kind, by its ending; of descriptions, if it is not meant as one. Errors
     /// tell nothing of what is in such a file.
-    std::filesystem::path file(const std::string& name, Kind) const;
+    std::filesystem::path file(const std::string& name, FileKind) const;
     /// The same for a file to be made. Throws InputError for endings other than .toml.
     std::filesystem::path new_file(const std::string& name) const;
 

@@ -73,14 +73,14 @@ Plot spot_plot(const Display& d) {
     const Geometry g = resolve(d);
     const Theory t = theory(d, g);
     const double L = t.central_depth_mm, from_vertex = g.rear_principal_mm - g.vertex_plane_mm;
-    const std::vector<Line> fan = fans(LensTrace(d, g), {0, 0}, spot_rays).meridional;
+    const std::vector<FanRay> fan = fans(LensTrace(d, g), {0, 0}, spot_rays).meridional;
     // To one and a half times the depth of field; where the plane is at infinity, as far as the viewer.
     const bool finite = std::abs(L) < 1e6;
     const double reach = finite ? std::clamp(0.75 * t.depth_of_field_mm, 0.2 * std::abs(L), 0.95 * std::abs(L)) : 0;
     const double low = finite ? L - reach : 0, high = finite ? L + reach : 2 * d.camera.position_mm[2];
     Series traced{"traced spot", {}, {}}, diffuse{"with the diffuser", {}, {}}, pixel{"a panel pixel's image", {}, {}};
-    const std::vector<Line> after =
-        d.diffuser ? diffused(fan, *g.diffuser_z_mm - g.rear_principal_mm, diffuser_angle(d, {1, 0})) : std::vector<Line>{};
+    const std::vector<FanRay> after =
+        d.diffuser ? diffused(fan, *g.diffuser_z_mm - g.rear_principal_mm, diffuser_angle(d, {1, 0})) : std::vector<FanRay>{};
     for (int k = 0; k < spot_depths; ++k) {
         const double z = low + (high - low) * k / (spot_depths - 1);
         for (Series* s : {&traced, &diffuse, &pixel}) s->x.push_back(z + from_vertex);

@@ -56,11 +56,11 @@ double Drawing::final_cost() const {
     return double(eyes_.size()) * (render_cost(eye.display, eye.geometry) + png_cost * wanted_.size[0] * wanted_.size[1]);
 }
 
-Drawing::Lit Drawing::true_light(const EyeDisplay& eye, Job& job) {
+Drawing::LitDisplay Drawing::true_light(const EyeDisplay& eye, Job& job) {
     return {eye, panels_.get(eye.key, eye.made_for, eye.made_for_geometry, threads_, job)};
 }
 
-Drawing::Lit Drawing::quick_light(const EyeDisplay& eye, Job& job) {
+Drawing::LitDisplay Drawing::quick_light(const EyeDisplay& eye, Job& job) {
     if (auto light = panels_.find(eye.key)) return {eye, light};
     if (eye.key.lengths.empty())
         return true_light(eye, job);  // an image, or a pattern that does not depend on lenses: a coarse one would not resemble it
@@ -84,7 +84,7 @@ Drawing::Lit Drawing::quick_light(const EyeDisplay& eye, Job& job) {
     return {*coarse, stand_in_};
 }
 
-void Drawing::beside(const Lit& lit, const Display& display, const Geometry& geometry, FrameHeader header, Image& view,
+void Drawing::beside(const LitDisplay& lit, const Display& display, const Geometry& geometry, FrameHeader header, Image& view,
                      Frames& frames, FrameHeader& of_view, Job& job) {
     const auto start = Clock::now();
     const Quiet quiet(job);
@@ -109,10 +109,10 @@ void Drawing::beside(const Lit& lit, const Display& display, const Geometry& geo
                                               : picture_frame(header, both.photograph, writing)});
 }
 
-Drawing::Frames Drawing::pictures(const std::vector<Lit>& all, Quality quality, double scale, Job& job) {
+Drawing::Frames Drawing::pictures(const std::vector<LitDisplay>& all, Quality quality, double scale, Job& job) {
     Frames frames;
     Writing writing(job);
-    for (const Lit& lit : all) {
+    for (const LitDisplay& lit : all) {
         const bool rest = quality == Quality::final;
         const Display display = rest ? lit.seen.display : coarse_view(lit.seen.display, lit.seen.geometry, scale, on_gpu_);
         const Geometry geometry = rest ? lit.seen.geometry : resolve(display);
@@ -138,7 +138,7 @@ Drawing::Frames Drawing::pictures(const std::vector<Lit>& all, Quality quality, 
 }
 
 Drawing::Frames Drawing::coarse(Job& job) {
-    std::vector<Lit> all;
+    std::vector<LitDisplay> all;
     bool stand_in = false;
     for (const EyeDisplay& eye : eyes_) {
         all.push_back(quick_light(eye, job));
@@ -160,13 +160,13 @@ bool Drawing::wants_fine() const {
 }
 
 Drawing::Frames Drawing::fine(Job& job) {
-    std::vector<Lit> all;
+    std::vector<LitDisplay> all;
     for (const EyeDisplay& eye : eyes_) all.push_back(true_light(eye, job));
     return pictures(all, Quality::fine, 1, job);
 }
 
 Drawing::Frames Drawing::final(Job& job) {
-    std::vector<Lit> all;
+    std::vector<LitDisplay> all;
     for (const EyeDisplay& eye : eyes_) all.push_back(true_light(eye, job));
     stand_in_.reset();
     const auto start = Clock::now();
@@ -179,7 +179,7 @@ Drawing::DrawnFrame Drawing::exr(std::int64_t id, Job& job) {
     std::vector<Image> images;
     FrameHeader header{id, "file", Quality::final};
     for (const EyeDisplay& eye : eyes_) {
-        const Lit lit = true_light(eye, job);
+        const LitDisplay lit = true_light(eye, job);
         Rendering r = render(eye.display, eye.geometry, lit.light->summed(), {threads_, "", {}}, job);
         if (!r.complete) throw Stopped{};
         header.width = r.image.width;

@@ -39,14 +39,15 @@ class Drawing {
     DrawnFrame exr(std::int64_t id, Job&);
 
   private:
-    struct Lit {
+    /// A display as one eye sees it, with the light of its panel.
+    struct LitDisplay {
         EyeDisplay seen;
         std::shared_ptr<const ShownPanel> light;
     };
-    Lit true_light(const EyeDisplay&, Job&);
-    Lit quick_light(const EyeDisplay&, Job&);
-    Frames pictures(const std::vector<Lit>&, Quality, double scale, Job&);
-    void beside(const Lit&, const Display&, const Geometry&, FrameHeader, Image& view, Frames&, FrameHeader& of_view, Job&);
+    LitDisplay true_light(const EyeDisplay&, Job&);
+    LitDisplay quick_light(const EyeDisplay&, Job&);
+    Frames pictures(const std::vector<LitDisplay>&, Quality, double scale, Job&);
+    void beside(const LitDisplay&, const Display&, const Geometry&, FrameHeader, Image& view, Frames&, FrameHeader& of_view, Job&);
     double coarse_cost(const EyeDisplay&, double scale) const;
     double final_cost() const;
 

@@ -72,9 +72,9 @@ PanelContent source_of(const Library& library, const Shown& shown, const Display
     switch (shown.kind) {
         case Shown::Kind::model:
             return model_source(
-                shown.name == built_in_spheres ? shown.name : library.file(shown.name, Library::Kind::model).string(), display);
+                shown.name == built_in_spheres ? shown.name : library.file(shown.name, Library::FileKind::model).string(), display);
         case Shown::Kind::panel_image:
-            return of_file(shown.kind, library.file(shown.name, Library::Kind::picture).string());
+            return of_file(shown.kind, library.file(shown.name, Library::FileKind::picture).string());
         case Shown::Kind::pattern:
             return {shown.kind, shown.name};
         case Shown::Kind::start:

@@ -35,18 +35,18 @@ bool Mailbox::busy(const std::string& lane) const {
     return sending_ == lane || std::any_of(frames_.begin(), frames_.end(), [&](const auto& f) { return f.first == lane; });
 }
 
-std::optional<Mailbox::Item> Mailbox::next() {
+std::optional<Mailbox::QueuedMessage> Mailbox::next() {
     const std::lock_guard lock(mutex_);
     sending_.reset();
     if (!texts_.empty()) {
-        Item item{std::move(texts_.front()), false};
+        QueuedMessage item{std::move(texts_.front()), false};
         texts_.pop_front();
         text_bytes_ -= item.bytes.size();
         return item;
     }
     if (frames_.empty()) return std::nullopt;
     sending_ = std::move(frames_.front().first);
-    Item item{std::move(frames_.front().second), true};
+    QueuedMessage item{std::move(frames_.front().second), true};
     frames_.erase(frames_.begin());
     return item;
 }

@@ -14,7 +14,8 @@ inline constexpr std::size_t most_texts_waiting = 256, most_text_bytes_waiting =
 
 class Mailbox {
   public:
-    struct Item {
+    /// A text or a frame to be sent.
+    struct QueuedMessage {
         std::string bytes;
         bool binary;
     };
@@ -26,7 +27,7 @@ class Mailbox {
     /// Whether one of the lane waits, or is the item that next() returned last.
     bool busy(const std::string& lane) const;
     /// What to send next, texts first; to be called when the last item has been sent. Nothing: the box is empty.
-    std::optional<Item> next();
+    std::optional<QueuedMessage> next();
     /// Accepts no more frames and drops those that wait; with `texts`, also texts.
     void close(bool texts);
 

@@ -78,7 +78,7 @@ class Session : public Outbox, public std::enable_shared_from_this<Session> {
     boost::beast::flat_buffer buffer_;
     boost::asio::steady_timer pause_;
     std::chrono::steady_clock::time_point due_{};  // when the next message may be read
-    std::optional<Mailbox::Item> sending_;
+    std::optional<Mailbox::QueuedMessage> sending_;
     bool finishing_ = false, closing_ = false, ended_ = false;
 
     int malformed_ = 0;  // used only by the visitor's thread

@@ -89,7 +89,7 @@ class PlyFile::Body {
     PlyEncoding form_;
 };
 
-void PlyFile::read(PlyElement& element, const std::vector<Column>& columns, Body& body) {
+void PlyFile::read(PlyElement& element, const std::vector<PropertyTypes>& columns, Body& body) {
     for (PlyProperty& property : element.properties)
         if (property.is_list) property.starts.push_back(0);
     for (std::size_t row = 0; row < element.count && !columns.empty(); ++row) {
@@ -154,7 +154,7 @@ PlyFile::PlyFile(std::string_view bytes) {
             PlyProperty& property = elements.back().properties.emplace_back();
             words >> type;
             property.is_list = type == "list";
-            Column column{};
+            PropertyTypes column{};
             if (property.is_list) {
                 words >> type;
                 column.count = type_of(type);

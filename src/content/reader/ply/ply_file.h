@@ -42,17 +42,18 @@ struct PlyFile {
   private:
     enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
     enum class PlyEncoding { text, little_endian, big_endian };
-    struct Column {
+    /// The types of a property's values.
+    struct PropertyTypes {
         Type count, value;  // count: of a list
     };
     class Body;
     static Type type_of(const std::string& name);
     static double unit_of(Type);
-    static void read(PlyElement&, const std::vector<Column>&, Body&);
+    static void read(PlyElement&, const std::vector<PropertyTypes>&, Body&);
 
     std::string_view body_;
     PlyEncoding form_{};
-    std::vector<std::vector<Column>> columns_;  // of each element
+    std::vector<std::vector<PropertyTypes>> columns_;  // of each element
 };
 
 }  // namespace lfdsim::reader
