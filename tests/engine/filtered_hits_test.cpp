@@ -70,7 +70,7 @@ TEST(FilteredHits, PixelsMayLeapOnThePanel) {
     d.diffuser = Diffuser{0.82, {18, 18}, Profile::box};
     d.camera.position_mm = {0, 0, 30.23};
     d.camera.frame_width_mm = 2.4;
-    expect_white(d, {4, 16, 64}, 0.012, 0.03);  // bundles of rows and columns: 4 to 5 % dark
+    expect_white(d, {4, 16, 64}, 0.012, 0.03);  // footprints of rows and columns: 4 to 5 % dark
 }
 
 TEST(FilteredHits, PixelsMayBeWiderThanAQuarterOfAHole) {

@@ -188,9 +188,9 @@ SpreadErrors errors_of(const Display& d, const std::function<LineOfBoxes(Random&
         box.add(0, float(of.high));
         optics::Light<float> read, upright;
         optics::add_spread(panel.light, panel.base, at_x, at_y, line, box, 1.0f, read);
-        optics::add_light(
-            panel.light, panel.base,
-            optics::Boxes<float>{at_x, at_y, std::sqrt(line.wide2 + box.wide2), std::sqrt(line.high2 + box.high2), 1.0f}, upright);
+        optics::add_light(panel.light, panel.base,
+                          optics::Boxes<float>{at_x, at_y, std::sqrt(line.w2 + box.w2), std::sqrt(line.h2 + box.h2), 1.0f},
+                          upright);
         double truth[3] = {0, 0, 0};  // of boxes, no wider than a pixel, along the line
         for (int k = 0; k < along; ++k) {
             const double share = (k + 0.5) / along - 0.5;

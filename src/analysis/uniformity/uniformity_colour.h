@@ -16,8 +16,8 @@ class ColouredWhite {
   public:
     explicit ColouredWhite(const Subject&);
 
-    /// The mean light of a block of lenses in red, green and blue over the panel's own, as an eye sees it by such lines of sight, and
-    /// the share of the lines that are on the screen, over which the mean is taken.
+    /// The mean light of a block of lenses in red, green and blue over the panel's own, as an eye sees it by such lines of sight,
+    /// and the share of the lines that are on the screen, over which the mean is taken.
     struct BlockColour {
         std::array<double, 3> light{};
         double on_screen = 0;

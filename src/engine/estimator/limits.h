@@ -1,12 +1,12 @@
 // The limits of the filtered and of the lens-by-lens estimator's shortcuts, and of the choice between them and points. Floor 2.
-// docs/design.md, "The filtered estimator", explains blocks, strata and bundles.
+// docs/design.md, "The filtered estimator", explains blocks, strata and shared footprints.
 #pragma once
 #include <cstdint>
 
 namespace lfdsim {
 
-/// The pixels of a block share the rays of a bundle as long as the result holds for all of them. Where a limit is exceeded, smaller
-/// blocks are tried, and the smallest are rendered lens by lens. Wider limits share more.
+/// The pixels of a block share footprints as long as the result holds for all of them. Where a limit is exceeded, smaller blocks
+/// are tried, and the smallest are rendered lens by lens. Wider limits share more.
 struct FilteredLimits {
     // A display (engine/scene/traced_display.cpp). Picture pixels that a diffused ray spans along each axis at least.
     static constexpr double least_span = 4;
@@ -23,52 +23,53 @@ struct FilteredLimits {
     // A block (engine/estimator/shared_footprint.h). Lens pitches: how far the fourth ray of a block may be from where the other
     // three predict it.
     static constexpr double bend = 1e-3;
-    // Cosine: how steeply a ray must still go down after the diffuser's largest turn (relative to the cosine before it).
+    // Least cosine of a ray to the normal after the diffuser's largest turn, over the cosine before it.
     static constexpr double steepest = 0.2;
     // Share of the light: by how much strata may misjudge it in taking the diffuser's two turns as independent; with few strata,
     // and with many, which are used where little noise is allowed.
     static constexpr double misjudged = 0.05, misjudged_fine = 0.002;
 
-    // A stratum (kernels/filtered_axis.h). Half pitches from a lens's axis up to which it counts as that lens's alone.
-    static constexpr double straddling = 1.02;
+    // A stratum (kernels/filtered_axis.h). Half pitches from a lens's axis within which a stratum looks through one lens.
+    static constexpr double cell_margin = 1.02;
 
-    // A bundle (engine/estimator/shared_footprint.h, kernels/filtered_bundles.h). Panel pixels: a wider footprint is the mean over
-    // boxes around its probes, not one box.
-    static constexpr double soft = 1;
-    // Panel pixels, where they do not shine all over: of narrower boxes the light changes from pixel to pixel of the picture, and
-    // is not interpolated.
+    // A shared footprint (engine/estimator/shared_footprint.h, kernels/filtered_footprints.h). Panel pixels: the light of a wider
+    // footprint is the mean over boxes around its probes, not over one box.
+    static constexpr double narrow = 1;
+    // Panel pixels, where these have a black matrix or subpixels: the light of a narrower box changes from pixel to pixel of the
+    // picture and is not interpolated.
     static constexpr double masked = 4;
-    // How far the fourth ray may be from where the other three predict it: panel pixels, plus a share of the footprint's width.
+    // Largest distance of the fourth ray from where the other three predict it: panel pixels, plus a share of the footprint's
+    // width.
     static constexpr double least_uneven = 0.02, uneven = 0.05;
-    // Share of the footprint's width, plus `least_uneven`: one that moves less over the block is treated as still.
-    static constexpr double still = 0.1;
-    // Panel pixels: a wider footprint is treated as still even where its rays move unevenly.
-    static constexpr double smeared = 16;
+    // Share of the footprint's width, plus `least_uneven`: a footprint that moves less over the block is stationary.
+    static constexpr double stationary = 0.1;
+    // Panel pixels: a wider footprint is stationary even where its rays move non-linearly.
+    static constexpr double always_stationary = 16;
     // Share of an outermost stratum: where pixels see less of it, its footprint is not narrowed to what they see.
-    static constexpr double part_seen = 0.25;
+    static constexpr double part_visible = 0.25;
     // Least weight of a probe, even for a pixel that sees nothing of its part, so that there is a mean for all pixels.
-    static constexpr double least_seen = 1e-3;
-    // A footprint is traced in one part along each axis, and one more for each of so many panel pixels, up to most_parts.
+    static constexpr double least_visible = 1e-3;
+    // Panel pixels: a footprint is traced in one part along each axis, and one more for each of these, up to most_parts.
     static constexpr double pixels_a_part = 24;
     static constexpr int most_parts = 2;
     // Picture pixels between the points at which light is computed, and interpolated in between: for a block with few strata
-    // (places), and for one soft bundle (nodes).
+    // (places), and for one wide footprint (nodes).
     static constexpr int place_step = 4, node_step = 8;
 
-    // Lens by lens (kernels/lens_by_lens.h, seen_lenses.h). Share of a cell by which a lens's part of the domain may be wider than
-    // a number of cells without one more.
+    // Lens by lens (kernels/lens_by_lens.h, visible_lenses.h). Share of a cell by which a lens's part of the domain may be wider
+    // than a number of cells without one more.
     static constexpr double cell_to_spare = 0.3;
-    // How much the spread counts that is widest among the numbers that outlines do not cut: a box serves it.
+    // Weight of the widest spread among the coordinates that outlines do not cut: it is read as a box.
     static constexpr double boxed_spread = 0.3;
-    // Share of the sides of a box, and panel pixels: a parallelogram that leans farther is read as boxes side by side, so many at
-    // most.
-    static constexpr double leaning = 0.25;
+    // Share of the sides of a box, and panel pixels: a parallelogram that is more oblique is read as boxes side by side, most_boxes
+    // at most.
+    static constexpr double oblique_edge = 0.25;
     static constexpr int most_boxes = 8;
-    // Share of the widest spread's box: what else spreads light moves it by less than this, and is left out.
+    // Share of the widest spread's box: other spreads that move light by less than this are left out.
     static constexpr double aside = 0.04;
-    // Share of the sides of a box: where pixels do not shine all over, light that spreads farther than this along a leaning line is
-    // read along it, in at most so many pieces.
-    static constexpr double upright = 0.125;
+    // Share of the sides of a box: where pixels have a black matrix or subpixels, light that spreads farther than this along an
+    // oblique line is read along it, in most_pieces pieces at most.
+    static constexpr double oblique_line = 0.125;
     static constexpr int most_pieces = 8;
 
     // The choice between filtered light and points (engine/estimator/choice.cpp). Errors are allowed as shares of the frame's light

@@ -1,4 +1,4 @@
-// The outlines of lenses' cells as polygons, and how much of one lies in a box. Floor 2.
+// The outlines of lenses' cells as polygons, and the moments of their parts within boxes. Floor 2.
 #pragma once
 #include "simd/lane.h"
 
@@ -8,7 +8,7 @@ constexpr int most_corners = 8;
 
 /// The corners of a polygon for each lane, in either sense of rotation.
 template <class F>
-struct Corners {
+struct Polygon {
     int count;
     F x[most_corners], y[most_corners];
 };
@@ -19,9 +19,9 @@ struct Box {
     F left, right, low, high;
 };
 
-/// Does a polygon hold a whole box?
+/// Whether a polygon contains a whole box.
 template <class F>
-LFDSIM_FN Mask<F> holds(const Corners<F>& of, const Box<F>& box) {
+LFDSIM_FN Mask<F> contains(const Polygon<F>& of, const Box<F>& box) {
     const F half = F(Scalar<F>(0.5)), x = half * (box.left + box.right), y = half * (box.low + box.high), wide = box.right - x,
             high = box.high - y;
     F least = F(Scalar<F>(1e30)), most = -least;
@@ -45,7 +45,7 @@ struct Moments {
 /// the box. The integrands are of third degree at most between the points where the border enters and leaves the box, so two
 /// points of Gauss's rule there give them exactly.
 template <class F>
-LFDSIM_FN Moments<F> part_within(const Corners<F>& of, const Box<F>& box) {
+LFDSIM_FN Moments<F> part_within(const Polygon<F>& of, const Box<F>& box) {
     using S = Scalar<F>;
     const auto cut = [](F value, F low, F high) { return min(max(value, low), high); };
     const F zero = F(0), one = F(1), half = F(S(0.5)), middle_x = half * (box.left + box.right),
@@ -54,9 +54,10 @@ LFDSIM_FN Moments<F> part_within(const Corners<F>& of, const Box<F>& box) {
     for (int k = 0; k < of.count; ++k) {
         const int next = k + 1 < of.count ? k + 1 : 0;
         const F x = of.x[k] - middle_x, y = of.y[k], rise = of.y[next] - y, from = cut(y, box.low, box.high),
-                way = cut(of.y[next], box.low, box.high) - from;
-        if (!any(abs(way) > zero)) continue;
-        const F slope = (of.x[next] - of.x[k]) / select(rise == zero, one, rise), start = x + (from - y) * slope, run = way * slope;
+                cut_rise = cut(of.y[next], box.low, box.high) - from;
+        if (!any(abs(cut_rise) > zero)) continue;
+        const F slope = (of.x[next] - of.x[k]) / select(rise == zero, one, rise), start = x + (from - y) * slope,
+                run = cut_rise * slope;
         const F per = one / select(run == zero, one, run), enters = cut((zero - far_x - start) * per, zero, one),
                 leaves = cut((far_x - start) * per, zero, one);
         const F bend[4] = {zero, min(enters, leaves), max(enters, leaves), one};
@@ -65,8 +66,8 @@ LFDSIM_FN Moments<F> part_within(const Corners<F>& of, const Box<F>& box) {
             if (!any(length > zero)) continue;
             for (int side = -1; side <= 1; side += 2) {
                 const F t = centre + F(S(side * 0.28867513459481287)) * length;  // 1 / (2 sqrt 3)
-                const F at_x = cut(start + t * run, zero - far_x, far_x), at_y = from + t * way - middle_y,
-                        weight = half * length * way;
+                const F at_x = cut(start + t * run, zero - far_x, far_x), at_y = from + t * cut_rise - middle_y,
+                        weight = half * length * cut_rise;
                 sum = sum + weight * at_x;
                 sum_y = sum_y + weight * at_x * at_y;
                 sum_yy = sum_yy + weight * at_x * at_y * at_y;

@@ -1,4 +1,4 @@
-// The mean light of the panel over what a ray spreads there: by the two numbers of the domain that outlines cut, and by others.
+// The mean light of the panel over a ray's footprint: the spread by the two coordinates of the sample domain, and by the others.
 // Floor 2.
 #pragma once
 #include "engine/estimator/limits.h"
@@ -6,33 +6,33 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// How far light spreads on the panel: twelve times the variances of column and row, and their covariance. Those of an upright box
-/// are its width and its height squared, and 0.
+/// The second moments of a footprint on the panel: twelve times the variances W^2, H^2 of column and row and their covariance C.
+/// Those of an upright box are its width squared, its height squared and 0.
 template <class F>
 struct PanelCovariance {
-    F wide2, high2, lean2;
+    F w2, h2, c;
 
-    /// Adds what spreads evenly over so many columns and rows at once.
+    /// Adds a uniform spread along (columns, rows).
     LFDSIM_FN void add(F columns, F rows) {
-        wide2 = wide2 + columns * columns;
-        high2 = high2 + rows * rows;
-        lean2 = lean2 + columns * rows;
+        w2 = w2 + columns * columns;
+        h2 = h2 + rows * rows;
+        c = c + columns * rows;
     }
 };
 
-/// Light that two spreads move along one axis, each evenly and so far: what of it lies between 0 and a place.
+/// Light that two uniform spreads move along one axis, and its share between 0 and a position.
 template <class F>
 struct TwoSpreads {
-    F one, other;  // neither much less than the other
+    F one, other;  // full widths, neither much less than the other
 
-    /// The share of all: odd in the place.
+    /// The share of all light between 0 and the position: odd in the position.
     LFDSIM_FN F share(F place) const {
         using S = Scalar<F>;
         const F half = F(S(0.5)), longer = max(one, other), at = abs(place), rest = max(half * (one + other) - at, F(0));
         const F some = select(at > half * abs(one - other), half - quotient(half * rest * rest, one * other), quotient(at, longer));
         return select(place < F(0), -some, some);
     }
-    /// That share times how far the first spread has moved it on the mean, less the same of 0: even in the place.
+    /// The integral over that light of the distance by which the first spread has moved it: even in the position.
     LFDSIM_FN F moved(F place) const { return moved(one, other, place); }
     LFDSIM_FN F moved_by_other(F place) const { return moved(other, one, place); }
 
@@ -48,34 +48,34 @@ struct TwoSpreads {
     }
 };
 
-/// Leaning lines of the panel: light that two spreads move, each evenly over `along` pixels along an axis, and by `slope` pixels
-/// across for each of them; and both over `across` as well.
+/// Oblique lines on the panel: light that two spreads move, each uniformly over `along` pixels along an axis and by `slope` pixels
+/// across for each of them, and together over `across` as well.
 template <class F>
-struct LeaningLines {
-    struct LeaningLine {
+struct ObliqueLines {
+    struct ObliqueLine {
         F along, slope;
     };
     F place[2];  // column, row of the middle, from a base
-    LeaningLine one, other;
+    ObliqueLine one, other;
     F across, weight;
 };
 
-/// Pieces of such lines along `axis`, 0 for columns and 1 for rows: one for each cell of a part of the panel, from where the part
-/// begins to shine there to where it ends. So far it shines evenly, and that the piece leans only widens it. Of long lines a piece
-/// is several cells.
+/// Pieces of oblique lines along `axis`, 0 for columns and 1 for rows: one for each cell of a part of the panel, between the ends
+/// of what shines there. Within a piece the panel shines uniformly, and its slope only widens it. Of long lines a piece is several
+/// cells.
 template <int axis, class F>
 class Pieces {
     using S = Scalar<F>;
 
   public:
-    LFDSIM_FN explicit Pieces(const LeaningLines<F>& of)
+    LFDSIM_FN explicit Pieces(const ObliqueLines<F>& of)
         : line(of),
           one2(of.one.along * of.one.along),
           other2(of.other.along * of.other.along),
           least(max(F(S(1.0 / 64)) * max(of.one.along, of.other.along), F(S(1e-6)))),
           spreads{max(of.one.along, least), max(of.other.along, least)} {}
 
-    /// The n-th; false: no lane has one.
+    /// Computes the n-th piece; false: no lane has one.
     LFDSIM_FN bool make(const SubpixelPart<S>& part, const PanelBase<S>& base, int n) {
         const F zero = F(0), one = F(1), half = F(S(0.5));
         const std::uint32_t number = axis == 0 ? base.column : base.row;
@@ -99,7 +99,7 @@ class Pieces {
         aside = sqrt(max((by_one - by_other) * (by_one * moved2 - by_other * moved_by_other2) + by_one * by_other * in2, zero));
         along.middle = half * (lit + dark);
         along.width = dark - lit;
-        along.squeeze(part, axis);
+        along.to_cumulative_light(part, axis);
         return true;
     }
 
@@ -107,14 +107,14 @@ class Pieces {
     F share, middle, aside;  // of the light; across, and how far it spreads there besides line.across
 
   private:
-    const LeaningLines<F>& line;
+    const ObliqueLines<F>& line;
     const F one2, other2, least;
     const TwoSpreads<F> spreads;
 };
 
-/// The mean over leaning lines of a panel with subpixels.
+/// Adds the mean light over oblique lines of a panel with subpixels.
 template <int axis, class F>
-LFDSIM_LARGE void add_lines(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const LeaningLines<F>& line,
+LFDSIM_LARGE void add_lines(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const ObliqueLines<F>& line,
                             Light<F>& light) {
     using S = Scalar<F>;
     constexpr int other = 1 - axis;
@@ -133,44 +133,44 @@ LFDSIM_LARGE void add_lines(const PanelLight& panel, const PanelBase<Scalar<F>>&
             PlaneSide<F> side[2] = {piece.along, piece.along};
             side[other] =
                 PlaneSide<F>(part, other, number, piece.middle, sqrt(line.across * line.across + piece.aside * piece.aside));
-            side[other].squeeze(part, other, line.across, piece.aside);
+            side[other].to_cumulative_light(part, other, line.across, piece.aside);
             add_part(panel, base, part, side, line.weight * piece.share, light);
         }
     }
 }
 
-/// Adds the light that spreads so far about a place by `square` and by `others`, `weight` times its mean, of a panel whose pixels
-/// do not shine all over. The gaps between them tell a leaning line from an upright box of the same variances, and two spreads from
-/// one: light is read along the line, or gaps take their exact share of two upright spreads. docs/model.md, "Black matrix and
-/// subpixels".
+/// Adds `weight` times the mean light of a footprint about (column, row) with the second moments `domain` and `others`, of a panel
+/// with a black matrix or subpixels. Gaps between pixels distinguish an oblique line from an upright box of the same variances, and
+/// two spreads from one: light is read along the line, or gaps take their exact share of two upright spreads. docs/model.md, "Black
+/// matrix and subpixels".
 template <class F>
 LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& base, F column, F row,
-                          const PanelCovariance<F>& square, const PanelCovariance<F>& others, F weight, Light<F>& light) {
+                          const PanelCovariance<F>& domain, const PanelCovariance<F>& others, F weight, Light<F>& light) {
     using S = Scalar<F>;
-    const F zero = F(0), tiny = F(S(1e-6)), least = F(S(1.0 / 64)), upright = F(S(FilteredLimits::upright));
-    const Boxes<F> all{column, row, sqrt(square.wide2 + others.wide2), sqrt(square.high2 + others.high2), weight};
-    const F wider = upright * max(all.wide, least), higher = upright * max(all.high, least);
-    const Mask<F> down = !(all.wide > all.high), leans = upright * (abs(square.lean2) + abs(others.lean2)) > wider * higher;
-    const auto add_leaning = [&]<int axis>(Mask<F> some) {
+    const F zero = F(0), tiny = F(S(1e-6)), least = F(S(1.0 / 64)), least_oblique = F(S(FilteredLimits::oblique_line));
+    const Boxes<F> all{column, row, sqrt(domain.w2 + others.w2), sqrt(domain.h2 + others.h2), weight};
+    const F wider = least_oblique * max(all.wide, least), higher = least_oblique * max(all.high, least);
+    const Mask<F> down = !(all.wide > all.high), oblique = least_oblique * (abs(domain.c) + abs(others.c)) > wider * higher;
+    const auto add_oblique = [&]<int axis>(Mask<F> some) {
         if (none(some)) return;
-        F across2 = zero;  // what does not lean
+        F across2 = zero;  // the spread across the line
         const auto line_of = [&](const PanelCovariance<F>& spread) {
-            const F along = sqrt(axis == 0 ? spread.wide2 : spread.high2), lean = quotient(spread.lean2, max(along, tiny));
-            across2 = across2 + max((axis == 0 ? spread.high2 : spread.wide2) - lean * lean, zero);
-            return typename LeaningLines<F>::LeaningLine{along, quotient(lean, max(along, tiny))};
+            const F along = sqrt(axis == 0 ? spread.w2 : spread.h2), skew = quotient(spread.c, max(along, tiny));
+            across2 = across2 + max((axis == 0 ? spread.h2 : spread.w2) - skew * skew, zero);
+            return typename ObliqueLines<F>::ObliqueLine{along, quotient(skew, max(along, tiny))};
         };
-        LeaningLines<F> lines{{column, row}, line_of(square), line_of(others), zero, select(some, weight, zero)};
+        ObliqueLines<F> lines{{column, row}, line_of(domain), line_of(others), zero, select(some, weight, zero)};
         lines.across = sqrt(across2);
         add_lines<axis>(panel, base, lines, light);
     };
-    add_leaning.template operator()<0>(leans && !down);
-    add_leaning.template operator()<1>(leans && down);
-    if (!any(!leans)) return;
-    const F one[2] = {sqrt(square.wide2), sqrt(square.high2)}, other[2] = {sqrt(others.wide2), sqrt(others.high2)};
+    add_oblique.template operator()<0>(oblique && !down);
+    add_oblique.template operator()<1>(oblique && down);
+    if (!any(!oblique)) return;
+    const F one[2] = {sqrt(domain.w2), sqrt(domain.h2)}, other[2] = {sqrt(others.w2), sqrt(others.h2)};
     Boxes<F> box = all;
-    box.weight = select(leans, zero, weight);
+    box.weight = select(oblique, zero, weight);
     add_subpixels(panel, base, box, light, [&](PlaneSide<F>& side, const SubpixelPart<S>& part, int axis) {
-        side.squeeze(part, axis, one[axis], other[axis]);
+        side.to_cumulative_light(part, axis, one[axis], other[axis]);
     });
 }
 

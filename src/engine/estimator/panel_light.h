@@ -1,14 +1,15 @@
 // The mean light of a panel over boxes, whether its pixels shine all over or in subpixels. Floor 2.
 //
 // A rectangle that shines in each cell of some pixels is a function of column times one of row. So its light in a box is that of a
-// squeezed box of the picture in which the rectangle fills the cell: docs/model.md, "Black matrix and subpixels".
+// box in coordinates of cumulative light over the picture in which the rectangle fills the cell: docs/model.md, "Black matrix and
+// subpixels".
 #pragma once
 #include "engine/estimator/box_means.h"
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Of two spreads together: where their product, in cells squared, is less, a difference of differences would lose its digits;
-/// where one is a smaller share of the other it does not matter.
+/// Limits of the gaps' exact share of two spreads: where the spreads' product, in cells squared, is less, a difference of
+/// differences would lose its digits; where one is a smaller share of the other, it does not matter.
 constexpr float least_product = 5e-4f, least_share = 1.0f / 16;
 
 /// A side of a box of the panel, as that of a box of the plane in which a subpixel's part repeats.
@@ -16,20 +17,20 @@ template <class F>
 struct PlaneSide {
     std::uint32_t base;  // the plane's cell that holds the panel's base
     F middle, width;     // in cells of the plane, the middle from the base
-    F light;             // after squeeze(): that in the squeezed side over that in the side
+    F light;             // after to_cumulative_light(): that in the mapped side over that in the side
 
     PlaneSide() = default;
 
-    /// Of a side about `place`, panel pixels from the base pixel `number`, `size` pixels wide.
+    /// The side about `place`, panel pixels from the base pixel `number`, `size` pixels wide.
     LFDSIM_FN PlaneSide(const SubpixelPart<Scalar<F>>& part, int axis, std::uint32_t number, F place, F size) {
         const std::int32_t cell = part.cell[axis], at = std::int32_t(number), rest = cell == 1 ? 0 : InCell<F>::rest_of(at, cell);
         base = std::uint32_t(cell == 1 ? at : (at - rest) / cell);
         middle = (place + F(Scalar<F>(rest))) * F(part.per_cell[axis]);
         width = size * F(part.per_cell[axis]);
     }
-    /// Turns the side into that of a box over the plane with the same light. A point's place is then the light before it: it stands
-    /// still in the dark between two parts and moves faster where they shine.
-    LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis) {
+    /// Maps the side to the cumulative light before its ends, s(x) of docs/model.md: the side of a box over the plane with the same
+    /// light.
+    LFDSIM_FN void to_cumulative_light(const SubpixelPart<Scalar<F>>& part, int axis) {
         using S = Scalar<F>;
         const F wide = max(width, F(S(1.0 / 4096))), half = F(S(0.5)) * wide, pixel = floor(middle), place = middle - pixel;
         const F first = light_before(part, axis, place - half), last = light_before(part, axis, place + half);
@@ -37,18 +38,18 @@ struct PlaneSide {
         width = last - first;
         light = width / wide;
     }
-    /// The same of light that two spreads move, each evenly, so many panel pixels: `light` is that of both, where they are not too
-    /// small. The side is that of a box of the same variance.
-    LFDSIM_FN void squeeze(const SubpixelPart<Scalar<F>>& part, int axis, F one, F other) {
+    /// Maps a side of the variance of two uniform spreads of `one` and `other` panel pixels. `light` is that of both spreads, where
+    /// they are not too small.
+    LFDSIM_FN void to_cumulative_light(const SubpixelPart<Scalar<F>>& part, int axis, F one, F other) {
         using S = Scalar<F>;
         const F per_cell = F(part.per_cell[axis]), half = F(S(0.5)), place = middle - floor(middle),
                 longer = max(one, other) * per_cell, shorter = min(one, other) * per_cell, product = longer * shorter,
                 least = F(S(least_product));
         const auto before = [&](F at) { return sum_before(part, axis, place + half * at); };
-        squeeze(part, axis);
+        to_cumulative_light(part, axis);
         const F both = before(longer + shorter) - before(longer - shorter) - (before(shorter - longer) - before(-longer - shorter));
-        const Mask<F> told = (product > least) && (shorter > F(S(least_share)) * longer);
-        light = select(told, max(quotient(both, max(product, least)), F(0)), light);
+        const Mask<F> significant = (product > least) && (shorter > F(S(least_share)) * longer);
+        light = select(significant, max(quotient(both, max(product, least)), F(0)), light);
     }
 
   private:
@@ -66,13 +67,13 @@ struct PlaneSide {
     }
 };
 
-/// Do two parts lie alike along an axis?
+/// Whether two parts have the same extent along an axis.
 template <class S>
 LFDSIM_FN bool alike(const SubpixelPart<S>& a, const SubpixelPart<S>& b, int axis) {
     return a.cell[axis] == b.cell[axis] && a.from[axis] == b.from[axis] && a.to[axis] == b.to[axis];
 }
 
-/// Adds `weight` times the mean of a part of a panel with subpixels over boxes with these sides, which have been squeezed.
+/// Adds `weight` times the mean of a part of a panel with subpixels over boxes with these mapped sides.
 template <class F>
 LFDSIM_FN void add_part(const PanelLight& panel, PanelBase<Scalar<F>> base, const SubpixelPart<Scalar<F>>& part,
                         const PlaneSide<F> (&side)[2], F weight, Light<F>& light) {
@@ -89,14 +90,14 @@ LFDSIM_FN void add_part(const PanelLight& panel, PanelBase<Scalar<F>> base, cons
 /// Adds the mean over boxes of a panel with subpixels, of all that shines in them, by squeeze(side, part, axis).
 template <class F, class Squeeze>
 LFDSIM_FN void add_subpixels(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Light<F>& light,
-                             Squeeze squeeze) {
+                             Squeeze to_cumulative_light) {
     using S = Scalar<F>;
     const Emission<S>& emission = *panel.emission;
     const std::uint32_t number[2] = {base.column, base.row};
     const F place[2] = {box.column, box.row}, size[2] = {box.wide, box.high};
     const auto side_of = [&](const SubpixelPart<S>& part, int axis) {
         PlaneSide<F> side(part, axis, number[axis], place[axis], size[axis]);
-        squeeze(side, part, axis);
+        to_cumulative_light(side, part, axis);
         return side;
     };
     PlaneSide<F> side[2] = {side_of(emission.part[0], 0), side_of(emission.part[0], 1)};
@@ -110,7 +111,7 @@ LFDSIM_FN void add_subpixels(const PanelLight& panel, const PanelBase<Scalar<F>>
 template <class F>
 LFDSIM_LARGE void add_subpixels(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Light<F>& light) {
     add_subpixels(panel, base, box, light,
-                  [](PlaneSide<F>& side, const SubpixelPart<Scalar<F>>& part, int axis) { side.squeeze(part, axis); });
+                  [](PlaneSide<F>& side, const SubpixelPart<Scalar<F>>& part, int axis) { side.to_cumulative_light(part, axis); });
 }
 
 /// Adds the light of boxes of any panel.

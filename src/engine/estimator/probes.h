@@ -1,5 +1,5 @@
-// A number for each of a bundle's probes, in arrays of fixed length, which compilers vectorize; and what is found from all of them.
-// Every sum has a fixed order. Floor 2.
+// Numbers of a footprint's probes, in arrays of fixed length, which compilers vectorize, and sums over them in a fixed order.
+// Floor 2.
 #pragma once
 #include "simd/lane.h"
 
@@ -28,7 +28,7 @@ LFDSIM_FN S least_of(const S (&a)[most_probes]) {
     return least;
 }
 
-/// The numbers of probes a few before or behind each.
+/// The numbers of the probes a few steps before or behind each probe.
 template <class S>
 class Neighbours {
   public:
@@ -46,8 +46,8 @@ class Neighbours {
     S padded_[most_probes + 2 * pad] = {};
 };
 
-/// Sums over the probes of four numbers of each times its weight, at several nodes; and the means, whose weights' sum is the
-/// last.
+/// Weighted sums over the probes, at several nodes, of four numbers of each probe, of which the last gives the weights' sum; and
+/// the means.
 template <class S, int most_nodes>
 class NodeSums {
   public:
@@ -57,7 +57,7 @@ class NodeSums {
             for (int c = 0; c < 4; ++c) part[p % 4][c] = part[p % 4][c] + weight[p] * row[p][c];
         for (int c = 0; c < 4; ++c) sum_[node][c] = sum_[node][c] + ((part[0][c] + part[2][c]) + (part[1][c] + part[3][c]));
     }
-    /// Of so many nodes; false: at one of them all weights are 0.
+    /// The means at the first `count` nodes; false: at one of them all weights are 0.
     LFDSIM_FN bool means(int count, S (*mean)[4]) const {
         bool empty = false;
         for (int node = 0; node < count; ++node) {

@@ -1,10 +1,10 @@
-// SharedFootprints: a few rays that determine what a block of neighbouring pixels sees through a stratum. Floor 2.
+// Shared footprints: the area of the panel that a block of neighbouring pixels sees through a stratum, from a few rays. Floor 2.
 //
 // Neighbouring pixels look through the same point of a lens at nearly the same point of the panel. So a grid of rays, the probes,
 // is traced through a stratum from the block's middle only. Their ends on the panel give the footprint: its mean position, its
 // spread, and the share of light transmitted. Three rays from other points of the block show how the footprint moves from pixel to
-// pixel, and whether this motion is linear. Where rays are lost on the way, or end under different lenses, the bundle is broken,
-// and the block's pixels cannot share its rays.
+// pixel, and whether this motion is linear. Where rays are lost, or end under different lenses, the block's pixels cannot share
+// the footprint.
 //
 // Positions in the planes of diffuser and holes are in mm along the display's axes, from the axis of the block's base lens;
 // positions on the panel are columns and rows, in panel pixels from where that axis meets the panel (PanelBase). The method is ray
@@ -26,7 +26,8 @@ constexpr int block_rays = 4;
 LFDSIM_FN int block_right(int ray) { return ray == 1 ? 1 : ray == 3 ? -1 : 0; }
 LFDSIM_FN int block_down(int ray) { return ray == 2 ? 1 : ray == 3 ? -1 : 0; }
 
-/// The light of a soft bundle is computed at the corners of squares of FilteredLimits::node_step pixels, its nodes: at most 3 x 3.
+/// The light of a wide footprint is computed at its nodes, the corners of squares of FilteredLimits::node_step pixels: at most 3
+/// x 3.
 constexpr int most_nodes = 3;
 
 /// A block of pixels whose rays are shared, and its four rays in the first plane of the display.
@@ -40,7 +41,7 @@ struct PixelBlock {
     bool alive;  // all rays reach the display, evenly spaced on it, and strata may treat the diffuser's two turns as independent
 };
 
-/// Do all rays still go down, at no grazing angle, after the diffuser's largest turn? A ray turned past the horizontal does not
+/// Whether all rays go down, at no grazing angle, after the diffuser's largest turn. A ray turned past the horizontal does not
 /// meet the plane of the holes, so it has no place in a stratum.
 template <class S>
 LFDSIM_FN bool all_go_down(const TracedDisplay<S>& display, const PixelBlock<S>& block) {
@@ -53,8 +54,8 @@ LFDSIM_FN bool all_go_down(const TracedDisplay<S>& display, const PixelBlock<S>&
     return true;
 }
 
-/// Strata treat the diffuser's two turns as independent, as if each moved the ray along its own axis alone. Do they misjudge the
-/// light that comes from any point by less than the share `most`? Tested at the four corners of the square of angles, seen from the
+/// Whether strata may treat the diffuser's two turns as independent, as if each moved the ray along one axis only: the light that
+/// comes from any point is then misjudged by less than the share `most`. Tested at the four corners of the sample domain, from the
 /// block's middle.
 ///
 /// The diffuser turns the unit direction i by a about y, after which its z component is z', then by b about x, to t. As the first
@@ -63,7 +64,7 @@ LFDSIM_FN bool all_go_down(const TracedDisplay<S>& display, const PixelBlock<S>&
 /// plane, da db / (dx dy). With the slopes s = t_x/t_z and s' = t_y/t_z the strata take da db = dx dy / (H^2 (1 + s^2) (1 + s'^2)).
 /// `ratio` is the true density divided by that of the strata.
 template <class S>
-LFDSIM_FN bool axes_part(const TracedDisplay<S>& display, const PixelBlock<S>& block, S most) {
+LFDSIM_FN bool turns_independent(const TracedDisplay<S>& display, const PixelBlock<S>& block, S most) {
     S tangent[2];
     for (int a = 0; a < 2; ++a) {
         S sine, cosine;
@@ -107,7 +108,7 @@ LFDSIM_FN PixelBlock<S> pixel_block(const TracedDisplay<S>& display, const RayOr
                 turn = s[1].slope + s[2].slope + s[3].slope - S(3) * s[0].slope;
         block.alive = abs(bend) + abs(turn * display.holes_below[a]) < S(FilteredLimits::bend) * display.lattice.pitch[a];
     }
-    block.alive = block.alive && all_go_down(display, block) && axes_part(display, block, most_misjudged);
+    block.alive = block.alive && all_go_down(display, block) && turns_independent(display, block, most_misjudged);
     return block;
 }
 
@@ -118,7 +119,7 @@ struct Probes {
     S at_x[most_probes], at_y[most_probes], x[most_probes], y[most_probes];
     S column[most_probes], row[most_probes], weight[most_probes];  // weight 0: lost
     S cell_i[most_probes], cell_j[most_probes];                    // the lens
-    S in[most_probes];                                             // 1: lies in the part of the stratum at hand, else 0
+    S in[most_probes];                                             // 1: lies in the part of the stratum that is probed, else 0
     S has_right[most_probes], has_left[most_probes], has_above[most_probes], has_below[most_probes];  // 1: has that neighbour
 
     /// per_axis x per_axis probes, row after row. The rest count as lost: sums include them, but a narrow packet never traces them.
@@ -155,28 +156,31 @@ LFDSIM_FN void trace_probes(const TracedDisplay<Scalar<F>>& display, const Pixel
     }
 }
 
-/// What a block sees through a stratum, or through the part of it that lies inside its round hole, or beside that hole. Dark: no
-/// light. Sharp: each pixel reads one box of the panel. Soft: wider than a panel pixel, the mean over a box around each probe.
-/// Broken: pixels of the block cannot share its rays.
+/// The footprint of a block through a stratum, or through the part of it inside its round hole, or beside that hole. Its state:
+/// - unlit: no ray reaches the panel;
+/// - narrow: at most FilteredLimits::narrow panel pixels wide; each pixel reads one box of the panel;
+/// - wide: wider; its light is the mean over a box around each probe, computed at nodes and interpolated between them;
+/// - unshared: rays are lost, end under several lenses or move non-linearly, so the block's pixels cannot share the footprint.
 template <class S>
 struct SharedFootprint {
-    enum class State { dark, sharp, soft, broken } state;
+    enum class State { unlit, narrow, wide, unshared } state;
     S column, row;  // mean position on the panel, seen from the block's middle: panel pixels from the block's base
     S column_right, row_right, column_down, row_down;  // its motion per picture pixel to the right and down
     S width, height;                                   // of a box of the same spread, panel pixels
     S weight;                                          // mean share of light transmitted over the part, lost rays counted as 0
     S x, y, probe_column, probe_row;                   // the probe nearest to the middle: mm, and its end on the panel
-    S lean_column[2], lean_row[2];                     // sharp: added to the motion per picture pixel to the right and down
-    bool still;                                        // soft: the footprint does not move
-    int nodes;                                         // soft: along an axis of the block; 1: its light is the same everywhere
+    S part_column[2], part_row[2];                     // narrow: motion of the visible part of its stratum, added to the above
+    bool stationary;                                   // wide: the footprint is the same for all pixels of the block
+    int nodes;                                         // wide: along an axis of the block; 1: its light is the same everywhere
 };
 template <class S>
 struct LitFootprint : SharedFootprint<S> {
-    alignas(16) S colour[most_nodes * most_nodes][4];  // soft: the light at its nodes; interpolated between
+    alignas(16) S colour[most_nodes * most_nodes][4];  // wide: the light at its nodes; interpolated between them
 };
 
-/// The footprint of a stratum's per_axis x per_axis probes, as far as they determine it: position, spread, transmitted share. Sharp
-/// if all that reach the panel did so through one lens, dark if none reached it, else broken.
+/// The footprint of a stratum's per_axis x per_axis probes, as far as they determine it: position, spread, transmitted share. It is
+/// unlit if no probe reaches the panel, unshared if those that do pass several lenses, and else counts as narrow until its width is
+/// tested.
 template <class S>
 LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
     using State = typename SharedFootprint<S>::State;
@@ -184,7 +188,7 @@ LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
     for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
     SharedFootprint<S> b;
     const S part = sum_of(probes.in), count = sum_of(lit);
-    b.state = part > S(0) ? State::dark : State::broken;
+    b.state = part > S(0) ? State::unlit : State::unshared;
     if (count == S(0)) return b;
     bool is_lit[most_probes];
     for (int p = 0; p < most_probes; ++p) is_lit[p] = lit[p] > S(0);
@@ -221,18 +225,18 @@ LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
     b.y = probes.y[one];
     b.probe_column = probes.column[one];
     b.probe_row = probes.row[one];
-    for (int k = 0; k < 2; ++k) b.lean_column[k] = b.lean_row[k] = S(0);
-    b.state = others == S(0) ? State::sharp : State::broken;
+    for (int k = 0; k < 2; ++k) b.part_column[k] = b.part_row[k] = S(0);
+    b.state = others == S(0) ? State::narrow : State::unshared;
     return b;
 }
 
 /// How the position on the panel changes with the position in the plane of the holes: least squares over the probes, panel pixels
 /// per mm.
 template <class S>
-struct Slopes {
+struct PanelSlopes {
     S column[2], row[2];  // along x and y
 
-    LFDSIM_FN Slopes(const Probes<S>& probes, const SharedFootprint<S>& b) {
+    LFDSIM_FN PanelSlopes(const Probes<S>& probes, const SharedFootprint<S>& b) {
         S lit[most_probes], t[most_probes];
         for (int p = 0; p < most_probes; ++p) lit[p] = probes.in[p] * probes.weight[p] > S(0) ? S(1) : S(0);
         const S count = sum_of(lit);
@@ -298,9 +302,9 @@ struct ProbeBoxes {
     }
 };
 
-/// Derives a bundle's motion per picture pixel from rays p .. p + 2, which go through its probe's point from the block's points 1,
-/// 2 and 3. The bundle becomes broken if the motion is not linear, or a ray is lost or ends under another lens, unless it is so
-/// wide that this does not matter.
+/// Derives a footprint's motion per picture pixel from rays p .. p + 2, which go through its probe's point from the block's points
+/// 1, 2 and 3. The footprint becomes unshared if the motion is not linear, or a ray is lost or ends under another lens, unless it
+/// is wider than FilteredLimits::always_stationary.
 template <class S>
 LFDSIM_FN void follow(SharedFootprint<S>& b, const Probes<S>& rays, int p, int reach) {
     const S column = b.probe_column, row = b.probe_row, per = S(1) / S(reach);
@@ -314,14 +318,16 @@ LFDSIM_FN void follow(SharedFootprint<S>& b, const Probes<S>& rays, int p, int r
     bool whole = even(uneven_column, b.width) && even(uneven_row, b.height);
     for (int k = p; k < p + 3; ++k)
         whole = whole && rays.weight[k] > S(0) && rays.cell_i[k] == rays.cell_i[p] && rays.cell_j[k] == rays.cell_j[p];
-    // A footprint much wider than its motion over the block, or so wide that its rays scatter widely, is treated as still.
-    const S way_column = S(reach) * (abs(b.column_right) + abs(b.column_down)),
-            way_row = S(reach) * (abs(b.row_right) + abs(b.row_down));
-    const auto stands = [](S way, S size) { return way <= S(FilteredLimits::least_uneven) + S(FilteredLimits::still) * size; };
-    b.still = stands(way_column, b.width) && stands(way_row, b.height);
+    // A footprint much wider than its motion over the block is stationary, and so is a very wide one whose rays scatter.
+    const S motion_column = S(reach) * (abs(b.column_right) + abs(b.column_down)),
+            motion_row = S(reach) * (abs(b.row_right) + abs(b.row_down));
+    const auto is_stationary = [](S motion, S size) {
+        return motion <= S(FilteredLimits::least_uneven) + S(FilteredLimits::stationary) * size;
+    };
+    b.stationary = is_stationary(motion_column, b.width) && is_stationary(motion_row, b.height);
     if (whole) return;
-    b.still = max(b.width, b.height) > S(FilteredLimits::smeared);
-    if (!b.still) b.state = SharedFootprint<S>::State::broken;
+    b.stationary = max(b.width, b.height) > S(FilteredLimits::always_stationary);
+    if (!b.stationary) b.state = SharedFootprint<S>::State::unshared;
 }
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,8 +1,8 @@
-// Strata of the filtered estimator: the diffuser's square of angles, cut at the borders of the lenses. Floor 2.
+// Strata of the filtered estimator: the sample domain of the diffuser's angles, cut at the borders of the lenses. Floor 2.
 //
-// A pixel's light is a mean over the square [-1, 1]^2 of the diffuser's two numbers. The square is cut into columns and rows; a cut
-// near the border between two lenses is moved onto it, so that a stratum looks through one lens. The share of a stratum that a
-// round lens covers has a closed form. (docs/model.md, "Filtered estimator".)
+// A pixel's light is a mean over the domain [-1, 1]^2 of the diffuser's two coordinates u, v. The domain is cut into columns and
+// rows; a cut near the border between two lenses is moved onto it, so that a stratum looks through one lens. The share of a stratum
+// that a round lens covers has a closed form. (docs/model.md, "Filtered estimator".)
 #pragma once
 #include "optics/diffuser.h"
 #include "optics/traced_display.h"
@@ -10,8 +10,9 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Where a ray meets the plane of the lenses' holes, along one axis, when the diffuser turns it by the angle a about the other axis
-/// (its second turn is neglected): its slope, lateral mm per mm of descent, is tan(phi + a) or tan(phi - a), phi before the turn.
+/// The position along one axis at which a ray meets the plane of the lenses' holes, when the diffuser turns it by the angle a about
+/// the other axis (its second turn is neglected): its slope, lateral mm per mm of descent, is tan(phi + a) or tan(phi - a), phi
+/// before the turn.
 template <class F>
 struct Sweep {
     F at;                     // mm from the axis of the base lens: where the ray meets the diffuser
@@ -34,7 +35,7 @@ LFDSIM_FN int sense(int axis) { return axis == 0 ? -1 : 1; }
 /// Half the area of the unit circle between x = 0 and t: (t sqrt(1 - t^2) + asin t) / 2, odd; |t| is cut to 1. The arc sine is
 /// Abramowitz and Stegun's 4.4.46: error 2e-8.
 template <class F>
-LFDSIM_FN F circle_part(F t) {
+LFDSIM_FN F circle_integral(F t) {
     using S = Scalar<F>;
     constexpr double c[8] = {-0.0012624911, 0.0066700901, -0.0170881256, 0.0308918810,
                              -0.0501743046, 0.0889789874, -0.2145988016, 1.5707963050};
@@ -45,21 +46,21 @@ LFDSIM_FN F circle_part(F t) {
     return select(t < F(0), -part, part);
 }
 
-/// A stratum along one axis: its share of the axis and, within the cell of its lens and in units of the hole's radius from the
-/// lens's axis, where it begins and ends.
+/// A stratum along one axis: its share of the axis and its ends within the cell of its lens, in units of the hole's radius from the
+/// lens's axis.
 template <class F>
 struct Span {
     F share;
-    F from, to;            // from <= to
-    F part_from, part_to;  // circle_part of them
+    F from, to;                    // from <= to
+    F integral_from, integral_to;  // circle_integral of them
 };
 
 /// Area of {0 < X < x, 0 < Y < y} within the unit circle, odd in x and y.
 template <class F>
-LFDSIM_FN F corner_in_circle(F x, F part_x, F y, F part_y) {
+LFDSIM_FN F corner_in_circle(F x, F integral_x, F y, F integral_y) {
     using S = Scalar<F>;
     const F quarter = F(S(0.78539816339744831));
-    const F rest = abs(part_x) + abs(part_y) - quarter;
+    const F rest = abs(integral_x) + abs(integral_y) - quarter;
     const F signed_rest = select(x * y < F(0), -rest, rest);
     return select(x * x + y * y <= F(1), x * y, signed_rest);
 }
@@ -67,12 +68,13 @@ LFDSIM_FN F corner_in_circle(F x, F part_x, F y, F part_y) {
 /// The share of a stratum's rectangle that a round hole covers. For a small rectangle, where the difference of areas would lose its
 /// digits, the hole's edge is taken as straight.
 template <class F>
-LFDSIM_FN F hole_cover(const Span<F>& a, const Span<F>& b) {
+LFDSIM_FN F hole_coverage(const Span<F>& a, const Span<F>& b) {
     using S = Scalar<F>;
     const F width = a.to - a.from, height = b.to - b.from, whole = width * height, least = F(S(1e-4));
-    const F area = corner_in_circle(a.to, a.part_to, b.to, b.part_to) - corner_in_circle(a.from, a.part_from, b.to, b.part_to) -
-                   corner_in_circle(a.to, a.part_to, b.from, b.part_from) +
-                   corner_in_circle(a.from, a.part_from, b.from, b.part_from);
+    const F area = corner_in_circle(a.to, a.integral_to, b.to, b.integral_to) -
+                   corner_in_circle(a.from, a.integral_from, b.to, b.integral_to) -
+                   corner_in_circle(a.to, a.integral_to, b.from, b.integral_from) +
+                   corner_in_circle(a.from, a.integral_from, b.from, b.integral_from);
     F cover = area / max(whole, least);
     const Mask<F> small = whole < least;
     if (any(small)) {

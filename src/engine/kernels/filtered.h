@@ -1,4 +1,4 @@
-// The filtered estimator on the CPU: blocks of pixels that share the rays of bundles.
+// The filtered estimator on the CPU: blocks of pixels that share footprints.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/devices/kernel.h"
@@ -7,7 +7,7 @@
 #include "engine/estimator/shared_footprint.h"
 #include "engine/estimator/strata.h"
 #include "engine/kernels/filtered_axis.h"
-#include "engine/kernels/filtered_bundles.h"
+#include "engine/kernels/filtered_footprints.h"
 #include "engine/kernels/lens_by_lens.h"
 #include "optics/camera.h"
 #include "optics/light.h"
@@ -22,23 +22,23 @@ namespace {
 /// and interpolated between them, unless many strata ask for a finer picture.
 constexpr int most_side = 16, place_step = FilteredLimits::place_step, most_places = most_side / place_step + 1, most_lanes = 32;
 
-/// A sharp bundle, and the share of the light at each place that comes through it.
-struct Sharp {
-    const LitFootprint* bundle;
+/// A narrow footprint, and the share of the light at each place that comes through it.
+struct NarrowFootprint {
+    const LitFootprint* footprint;
     S weight[most_lanes];
 };
-constexpr int most_sharps = 2 * (few_strata + more_strata) * (few_strata + more_strata);
+constexpr int most_narrow = 2 * (few_strata + more_strata) * (few_strata + more_strata);
 
-/// What a thread works on, too much for its stack.
+/// The memory of a thread, too large for its stack.
 struct FilteredMemory {
     Axis axis[2];
-    SharedFootprints bundles[max_strata * max_strata];  // row after row
-    Sharp sharp[most_sharps];                           // where there are places, in the order of the bundles
-    S light[most_lanes][4];                             // of soft bundles at places
-    S picture[most_side][most_side][4];                 // of the block
+    SharedFootprints footprints[max_strata * max_strata];  // row after row
+    NarrowFootprint narrow[most_narrow];                   // where there are places, in the order of the footprints
+    S light[most_lanes][4];                                // of wide footprints at places
+    S picture[most_side][most_side][4];                    // of the block
     LensByLensMemory lenses;
 
-    /// MisalignedArray new, whose header of the standard library kernels do not include.
+    /// Placement new, whose header of the standard library kernels do not include.
     static void* operator new(std::size_t, void* at) noexcept { return at; }
 };
 
@@ -57,21 +57,21 @@ class FilteredBlock {
                                        S(t.strata > few_strata ? FilteredLimits::misjudged_fine : FilteredLimits::misjudged), x,
                                        y)) {}
 
-    /// False: the pixels cannot share all rays, and nothing is rendered.
+    /// Returns false if the pixels cannot share all footprints; then nothing is rendered.
     bool render(const EvenCuts& even) {
         if (!block.alive) return false;
         for (int a = 0; a < 2; ++a)
             if (!cut_axis(display, block.sweep[a], a, even, memory.axis[a])) return false;
-        if (!BundleMaker(tile, block, memory.axis).make_all(memory.bundles)) return false;
+        if (!FootprintMaker(tile, block, memory.axis).make_all(memory.footprints)) return false;
         if (per_axis > 0) {
-            list_bundles();
+            list_footprints();
             for (int k = 0; k < per_axis * per_axis; k += Packet::lanes) look_at_places(k);
         }
-        if (any_soft)
+        if (any_wide)
             interpolate();
         else
             __builtin_memset(memory.picture, 0, sizeof memory.picture);
-        if (sharps > 0 || per_axis == 0) look_up_pixels();
+        if (narrow_count > 0 || per_axis == 0) look_up_pixels();
         write();
         return true;
     }
@@ -80,16 +80,16 @@ class FilteredBlock {
     using Packet = optics::Block<F>;
     using State = LitFootprint::State;
 
-    /// Lists the sharp bundles, and finds out whether there are soft ones.
-    void list_bundles() {
+    /// Lists the narrow footprints, and finds out whether there are wide ones.
+    void list_footprints() {
         for (int k = 0; k < memory.axis[0].strata * memory.axis[1].strata; ++k)
-            for (const LitFootprint* b : {&memory.bundles[k].through, &memory.bundles[k].beside}) {
-                any_soft = any_soft || b->state == State::soft;
-                if (b->state == State::sharp) memory.sharp[sharps++].bundle = b;
+            for (const LitFootprint* b : {&memory.footprints[k].through, &memory.footprints[k].beside}) {
+                any_wide = any_wide || b->state == State::wide;
+                if (b->state == State::narrow) memory.narrow[narrow_count++].footprint = b;
             }
     }
 
-    /// Computes, for a packet of places from number k on, the light of soft bundles and the weights of the sharp ones.
+    /// Computes, for a packet of places from number k on, the light of wide footprints and the weights of narrow ones.
     void look_at_places(int k) {
         constexpr int lanes = Packet::lanes;
         const S per_reach = S(1) / S(block.reach);
@@ -99,11 +99,11 @@ class FilteredBlock {
             down[n] = S(optics::min((k + n) / per_axis, per_axis - 1) * place_step - block.reach);
         }
         F flat[3] = {F(0), F(0), F(0)};
-        Sharp* next = memory.sharp;
+        NarrowFootprint* next = memory.narrow;
         const F dx = optics::load<F>(right) * F(per_reach), dy = optics::load<F>(down) * F(per_reach);
-        for_bundles(dx, dy, [&](const LitFootprint& b, F weight) {
-            if (b.state == State::soft) add_soft(b, dx, dy, weight, flat);
-            if (b.state == State::sharp) optics::store(weight, next++->weight + k);
+        for_footprints(dx, dy, [&](const LitFootprint& b, F weight) {
+            if (b.state == State::wide) add_wide(b, dx, dy, weight, flat);
+            if (b.state == State::narrow) optics::store(weight, next++->weight + k);
         });
         S colour[3][lanes];
         for (int c = 0; c < 3; ++c) optics::store(flat[c], colour[c]);
@@ -154,7 +154,7 @@ class FilteredBlock {
         const F dx = right + F(S(x - x0 - block.reach)), dy = down + F(S(y - y0 - block.reach));
         optics::Light<F> boxes;
         if (per_axis > 0) {
-            add_sharp(x - x0, y - y0, right, down, dx, dy, boxes);
+            add_narrow(x - x0, y - y0, right, down, dx, dy, boxes);
             return boxes.store(found);
         }
         F flat[3] = {F(0), F(0), F(0)};
@@ -167,36 +167,36 @@ class FilteredBlock {
         }
     }
 
-    /// Adds the light of sharp bundles for the packet whose first pixel is (x, y) of the block, by their weights at places.
-    void add_sharp(int x, int y, F right, F down, F dx, F dy, optics::Light<F>& to) const {
+    /// Adds the light of narrow footprints for the packet whose first pixel is (x, y) of the block, by their weights at places.
+    void add_narrow(int x, int y, F right, F down, F dx, F dy, optics::Light<F>& to) const {
         const int corner = y / place_step * per_axis + x / place_step;
         const F per = F(S(1) / S(place_step)), s = (right + F(S(x % place_step))) * per, t = (down + F(S(y % place_step))) * per;
         optics::Light<F> sum = to;
-        for (const Sharp* k = memory.sharp; k < memory.sharp + sharps; ++k) {
+        for (const NarrowFootprint* k = memory.narrow; k < memory.narrow + narrow_count; ++k) {
             const S *const upper = k->weight + corner, *const lower = upper + per_axis;
             if (!(upper[0] + upper[1] + lower[0] + lower[1] > S(0))) continue;
             const F above = F(upper[0]) + F(upper[1] - upper[0]) * s, beneath = F(lower[0]) + F(lower[1] - lower[0]) * s;
-            add_box(*k->bundle, dx, dy, above + (beneath - above) * t, sum);
+            add_box(*k->footprint, dx, dy, above + (beneath - above) * t, sum);
         }
         to = sum;
     }
 
-    /// Adds the light of all bundles for the pixels at (dx, dy) of the block; that of soft ones to `flat`.
+    /// Adds the light of all footprints for the pixels at (dx, dy) of the block; that of wide ones to `flat`.
     void add_all(F dx, F dy, optics::Light<F>& boxes, F (&flat)[3]) const {
         const S reach = S(block.reach), per_reach = S(1) / reach;
         const F right = dx * F(per_reach), down = dy * F(per_reach);
-        for_bundles(right, down, [&](const LitFootprint& b, F weight) {
-            if (b.state == State::dark || optics::none(weight > F(0))) return;
-            if (b.state == State::soft) add_soft(b, right, down, weight, flat);
-            if (b.state == State::sharp) add_box(b, right * F(reach), down * F(reach), weight, boxes);
+        for_footprints(right, down, [&](const LitFootprint& b, F weight) {
+            if (b.state == State::unlit || optics::none(weight > F(0))) return;
+            if (b.state == State::wide) add_wide(b, right, down, weight, flat);
+            if (b.state == State::narrow) add_box(b, right * F(reach), down * F(reach), weight, boxes);
         });
     }
 
-    /// Adds the light of a soft bundle at (dx, dy), -1 .. 1 across the block: bilinear between its nodes.
-    LFDSIM_FN static void add_soft(const LitFootprint& b, F dx, F dy, F weight, F (&to)[3]) {
-        for (int c = 0; c < 3; ++c) to[c] = to[c] + weight * soft_light(b, dx, dy, c);
+    /// Adds the light of a wide footprint at (dx, dy), -1 .. 1 across the block: bilinear between its nodes.
+    LFDSIM_FN static void add_wide(const LitFootprint& b, F dx, F dy, F weight, F (&to)[3]) {
+        for (int c = 0; c < 3; ++c) to[c] = to[c] + weight * wide_light(b, dx, dy, c);
     }
-    LFDSIM_FN static F soft_light(const LitFootprint& b, F dx, F dy, int c) {
+    LFDSIM_FN static F wide_light(const LitFootprint& b, F dx, F dy, int c) {
         const auto between = [](S low, S middle, S high, F at) {
             return F(middle) + F(high - middle) * optics::max(at, F(0)) + F(middle - low) * optics::min(at, F(0));
         };
@@ -213,7 +213,7 @@ class FilteredBlock {
         return row[1] + (row[2] - row[1]) * optics::max(dy, F(0)) + (row[1] - row[0]) * optics::min(dy, F(0));
     }
 
-    /// Adds the box of a sharp bundle at (dx, dy) picture pixels from the block's middle.
+    /// Adds the box of a narrow footprint at (dx, dy) picture pixels from the block's middle.
     LFDSIM_FN void add_box(const LitFootprint& b, F dx, F dy, F weight, optics::Light<F>& light) const {
         const F column = F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
                 row = F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy;
@@ -229,14 +229,15 @@ class FilteredBlock {
         optics::add_light(tile.panel, block.lens.panel, box, light);
     }
 
-    /// f(bundle, its share of the light) for each bundle, with the shares of the lanes at (dx, dy) of the block, -1 .. 1.
+    /// Calls f(footprint, its share of the light) for each footprint, with the shares of the lanes at (dx, dy) of the block, -1
+    /// .. 1.
     template <class Do>
-    LFDSIM_FN void for_bundles(F dx, F dy, const Do& f) const {
+    LFDSIM_FN void for_footprints(F dx, F dy, const Do& f) const {
         optics::Span<F> across[max_strata];
         const Axis(&axis)[2] = memory.axis;
         Spans columns(display, axis[0], 0, dx, dy), rows(display, axis[1], 1, dx, dy);
         for (int i = 0; i < axis[0].strata; ++i) across[i] = columns.next();
-        const SharedFootprints* next = memory.bundles;
+        const SharedFootprints* next = memory.footprints;
         for (int j = 0; j < axis[1].strata; ++j) {
             const optics::Span<F> up = rows.next();
             for (int i = 0; i < axis[0].strata; ++i, ++next) {
@@ -246,7 +247,7 @@ class FilteredBlock {
                     f(next->beside, F(0));
                     continue;
                 }
-                const F cover = display.hole_radius == 0 ? F(1) : optics::hole_cover(across[i], up);
+                const F cover = display.hole_radius == 0 ? F(1) : optics::hole_coverage(across[i], up);
                 f(next->through, share * cover * F(next->through.weight));
                 f(next->beside, share * (F(1) - cover) * F(next->beside.weight));
             }
@@ -268,8 +269,8 @@ class FilteredBlock {
     const int side, per_axis;   // places along an axis; 0: none
     const std::int32_t x0, y0;  // first pixel
     const optics::PixelBlock<S> block;
-    int sharps = 0;         // sharp bundles, where there are places
-    bool any_soft = false;  // bundles, where there are places
+    int narrow_count = 0;   // narrow footprints, where there are places
+    bool any_wide = false;  // footprints, where there are places
 };
 
 /// Renders a tile block by block.
@@ -281,7 +282,7 @@ class FilteredEstimator {
           memory(*new (block_memory(sizeof(FilteredMemory))) FilteredMemory),
           lens_by_lens(t, memory.lenses) {}
 
-    /// The block's quarters where its pixels cannot share all rays; the smallest of those lens by lens.
+    /// Renders a block, or its quarters where its pixels cannot share all footprints; the smallest blocks lens by lens.
     void render(int side, std::int32_t x, std::int32_t y) {
         if (x >= tile.x1 || y >= tile.y1 || x + side <= tile.x0 || y + side <= tile.y0) return;
         const int least = tile.strata > few_strata ? 8 : 4;
@@ -297,7 +298,7 @@ class FilteredEstimator {
     LensByLens lens_by_lens;
 };
 
-/// Not inlined, so that it has a stack frame of its own.
+/// Renders a tile by the filtered estimator. Not inlined, so that its stack frame is separate.
 __attribute__((noinline)) void render_filtered(const Tile& tile) {
     FilteredEstimator estimator(tile);
     const std::int32_t side = tile.block_side;

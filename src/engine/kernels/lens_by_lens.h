@@ -1,43 +1,43 @@
-// The estimator `lens_by_lens`: a pixel's mean light as a sum over the lenses that it sees.
+// The estimator `lens_by_lens`: a pixel's mean light as a sum over its visible lenses.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 //
-// A sample of a pixel is up to six numbers in [-1, 1]: the diffuser's two, two of a place in the pixel's area, two of one in the
-// pupil (optics/trace.h, sample_ray()). One pair, the domain, is cut at the outlines of lenses: the diffuser's or, where that
-// spreads rays over less of the lenses than a pixel does, the pixel's. What is seen of a lens within the domain is cut into a grid
-// of cells. Each has an exact share of the light and one ray, through the middle of the part of the cell that lies in the lens. The
-// distance to the ends of its neighbours is the size of the box on the panel that the cell sees, whose mean is exact. As the shares
-// of all cells add up to 1, this is a quadrature rule for any lens: what a lens does changes the rays, not the rule.
+// A sample of a pixel has up to six coordinates in [-1, 1]: two of the diffuser, two of the position in the pixel's area, two of
+// that in the pupil (optics/trace.h, sample_ray()). One pair, the domain, is cut at the outlines of lenses: the diffuser's or,
+// where that spreads rays over less of the lenses than a pixel does, the pixel's. The part of the domain within a lens's outline is
+// cut into a grid of cells. Each has an exact share of the light and one ray, through the middle of the part of the cell that lies
+// in the lens. The distance to the ends of its neighbours is the size of the cell's footprint, a box whose mean is exact. As the
+// shares of all cells add up to 1, this is a quadrature rule for any lens: the lens determines the rays, not the rule.
 //
-// What the other pairs spread is divided into a grid of cells, too, whose middles move the domain's outlines; what remains within
-// a cell widens the boxes. docs/model.md, "Lens by lens", has the equations.
+// The other pairs are divided into a grid of cells, too, whose middles move the domain's outlines; the spread within a cell widens
+// the boxes. docs/model.md, "Lens by lens", has the equations.
 //
-// Lanes are pixels. A group of 4 x 4 pixels shares the list of lenses and the derivatives of a lens's rays, which are traced at the
-// group's middle; all else is decided for each pixel, so that no bit depends on the packet that it is in.
+// Lanes are pixels. A group of 4 x 4 pixels shares the list of visible lenses and the derivatives of a lens's rays, which are
+// traced at the group's middle; all else is decided for each pixel, so that no bit depends on the packet that it is in.
 #pragma once
 #include "engine/estimator/limits.h"
 #include "engine/estimator/panel_covariance.h"
 #include "engine/estimator/panel_light.h"
-#include "engine/kernels/seen_lenses.h"
+#include "engine/kernels/visible_lenses.h"
 
 namespace lfdsim {
 
 namespace {
 
-/// What a thread works on, too much for its stack.
+/// The memory of a thread, too large for its stack.
 struct LensByLensMemory {
-    SeenPart part[most_divisions * most_divisions];
-    SeenLens lens[most_seen_lenses];
+    LensPart part[most_divisions * most_divisions];
+    VisibleLens lens[most_visible_lenses];
 
-    /// MisalignedArray new, whose header of the standard library kernels do not include.
+    /// Placement new, whose header of the standard library kernels do not include.
     static void* operator new(std::size_t, void* at) noexcept { return at; }
 };
 
 /// Renders groups of pixels, one after the other.
-class LensByLens : SeenLenses {
+class LensByLens : VisibleLenses {
   public:
-    LensByLens(const Tile& t, LensByLensMemory& m) : SeenLenses(t, m.lens), memory(m) {}
+    LensByLens(const Tile& t, LensByLensMemory& m) : VisibleLenses(t, m.lens), memory(m) {}
 
-    /// The pixels of a group of 4 x 4 whose first is (x, y) of the frame.
+    /// Renders the group of 4 x 4 pixels whose first is (x, y) of the frame.
     void render(std::int32_t x, std::int32_t y) {
         using Packet = optics::Block<F>;
         const bool by_lens = list_lenses(x, y);
@@ -57,7 +57,7 @@ class LensByLens : SeenLenses {
     }
 
   private:
-    /// The light of a packet by 16 points for each sample, where lenses are not told apart.
+    /// The light of a packet by 16 points for each sample, where there is no list of lenses.
     optics::Light<F> light_of_points(const optics::PixelRays<F>& pixels, std::int32_t column, std::int32_t row) const {
         std::uint32_t lane[optics::Block<F>::lanes];
         for (int k = 0; k < optics::Block<F>::lanes; ++k)
@@ -66,9 +66,9 @@ class LensByLens : SeenLenses {
         optics::Sampler<F> sampler(tile.sampling, dimensions, view.seed, optics::load<F>(lane));
         optics::Light<F> light;
         for (int k = 0; k < samples; ++k) {
-            SampleNumbers<F> numbers{};
-            for (int d = 0; d < dimensions; ++d) numbers.of[d] = sampler(d);
-            optics::PanelPoint<F> end = trace(pixels, numbers, pixels.alive);
+            SampleCoordinates<F> coordinates{};
+            for (int d = 0; d < dimensions; ++d) coordinates.of[d] = sampler(d);
+            optics::PanelPoint<F> end = trace(pixels, coordinates, pixels.alive);
             end.weight = end.weight * F(S(1) / S(samples));
             light.add(display.emission, tile.texels, optics::Fetch<F>(optics::panel_pixel(display, pixels.base, end)));
             sampler.next(*tile.directions);
@@ -79,58 +79,60 @@ class LensByLens : SeenLenses {
     /// The light of a packet of the group.
     optics::Light<F> light_of(const optics::PixelRays<F>& pixels) {
         optics::Light<F> light;
-        const int own = domain / 2;
+        const int domain_pair = domain / 2;
         int other[2], others = 0, cells[2] = {1, 1};
         for (int q = 0; q < dimensions / 2; ++q)
-            if (q != own) other[others] = q, cells[others++] = divisions[q] * divisions[q];
+            if (q != domain_pair) other[others] = q, cells[others++] = divisions[q] * divisions[q];
         for (int a = 0; a < cells[0]; ++a)
             for (int b = 0; b < cells[1]; ++b) {
-                SampleNumbers<F> numbers;
-                for (F& of : numbers.of) of = F(0);
-                S width[optics::sampler_dimensions] = {};  // of a cell, in its numbers
+                SampleCoordinates<F> coordinates;
+                for (F& of : coordinates.of) of = F(0);
+                S width[optics::sampler_dimensions] = {};  // of a cell, in its coordinates
                 for (int k = 0; k < others; ++k) {
                     const int n = divisions[other[k]], cell = k == 0 ? a : b;
                     const auto middle = [n](int at) { return (S(at) + S(0.5)) * (S(2) / S(n)) - S(1); };
-                    numbers.of[2 * other[k]] = F(middle(cell % n));
-                    numbers.of[2 * other[k] + 1] = F(middle(cell / n));
+                    coordinates.of[2 * other[k]] = F(middle(cell % n));
+                    coordinates.of[2 * other[k] + 1] = F(middle(cell / n));
                     // A disk's variance is that of a box 3^(1/2) radii wide.
                     width[2 * other[k]] = width[2 * other[k] + 1] = other[k] == 2 ? S(1.7320508) / S(n) : S(2) / S(n);
                 }
-                const DomainMap<F> map = map_of(pixels, numbers);
+                const DomainMap<F> map = map_of(pixels, coordinates);
                 for (int k = 0; k < count; ++k)
-                    add_lens(pixels, numbers, map, lenses[k], width, F(S(1) / S(cells[0] * cells[1])), light);
+                    add_lens(pixels, coordinates, map, lenses[k], width, F(S(1) / S(cells[0] * cells[1])), light);
             }
         return light;
     }
 
-    /// Adds the light that comes through one lens; `share`: of the light that these other numbers stand for.
-    void add_lens(const optics::PixelRays<F>& pixels, SampleNumbers<F> numbers, const DomainMap<F>& map, const SeenLens& lens,
-                  const S (&width)[optics::sampler_dimensions], F share, optics::Light<F>& light) {
+    /// Adds the light that comes through one lens. `share`: that of the other coordinates' cell.
+    void add_lens(const optics::PixelRays<F>& pixels, SampleCoordinates<F> coordinates, const DomainMap<F>& map,
+                  const VisibleLens& lens, const S (&width)[optics::sampler_dimensions], F share, optics::Light<F>& light) {
         const F zero = F(0), one = F(1), half = F(S(0.5));
-        const optics::Corners<F> corners = corners_of(map, {lens.i, lens.j});
-        optics::Box<F> seen{F(S(1e30)), F(S(-1e30)), F(S(1e30)), F(S(-1e30))};
-        for (int k = 0; k < corners.count; ++k)
-            seen = {optics::min(seen.left, corners.x[k]), optics::max(seen.right, corners.x[k]),
-                    optics::min(seen.low, corners.y[k]), optics::max(seen.high, corners.y[k])};
+        const optics::Polygon<F> outline = outline_of(map, {lens.i, lens.j});
+        optics::Box<F> bounds{F(S(1e30)), F(S(-1e30)), F(S(1e30)), F(S(-1e30))};
+        for (int k = 0; k < outline.count; ++k)
+            bounds = {optics::min(bounds.left, outline.x[k]), optics::max(bounds.right, outline.x[k]),
+                      optics::min(bounds.low, outline.y[k]), optics::max(bounds.high, outline.y[k])};
         if (display.hole_radius > S(0) && !display.lit_between) {  // the ellipse's ends
             const optics::Vec2<S> axis = optics::axis_of(display.lattice, optics::Cell<S>{lens.i, lens.j});
             const F u = map.u_of(F(axis.x) - map.x, F(axis.y) - map.y), v = map.v_of(F(axis.x) - map.x, F(axis.y) - map.y),
                     size = F(display.hole_radius) * optics::abs(map.per_area),
                     reach_u = size * optics::sqrt(map.x_v * map.x_v + map.y_v * map.y_v),
                     reach_v = size * optics::sqrt(map.x_u * map.x_u + map.y_u * map.y_u);
-            seen = {u - reach_u, u + reach_u, v - reach_v, v + reach_v};
+            bounds = {u - reach_u, u + reach_u, v - reach_v, v + reach_v};
         }
-        seen = {optics::max(seen.left, -one), optics::min(seen.right, one), optics::max(seen.low, -one),
-                optics::min(seen.high, one)};
-        const optics::Mask<F> sees = (seen.right > seen.left) && (seen.high > seen.low) && pixels.alive;
-        if (!any(sees)) return;
+        bounds = {optics::max(bounds.left, -one), optics::min(bounds.right, one), optics::max(bounds.low, -one),
+                  optics::min(bounds.high, one)};
+        const optics::Mask<F> visible = (bounds.right > bounds.left) && (bounds.high > bounds.low) && pixels.alive;
+        if (!any(visible)) return;
         // Cells about as wide as those of the whole domain.
         const auto cells = [&](F size) {
             const F n = F(S(0.5) * S(divisions[domain / 2])) * size - F(S(FilteredLimits::cell_to_spare));
             return optics::max(optics::min(zero - optics::floor(zero - n), F(S(most_divisions))), one);
         };
-        const F columns = select(sees, cells(seen.right - seen.left), zero), rows = select(sees, cells(seen.high - seen.low), zero);
-        const F du = (seen.right - seen.left) / optics::max(columns, one), dv = (seen.high - seen.low) / optics::max(rows, one);
+        const F columns = select(visible, cells(bounds.right - bounds.left), zero),
+                rows = select(visible, cells(bounds.high - bounds.low), zero);
+        const F du = (bounds.right - bounds.left) / optics::max(columns, one),
+                dv = (bounds.high - bounds.low) / optics::max(rows, one);
         const auto most = [](F a) {
             int n = 0;
             while (any(a > F(S(n)))) ++n;
@@ -139,36 +141,36 @@ class LensByLens : SeenLenses {
         const int all_columns = most(columns), all_rows = most(rows);
         for (int j = 0; j < all_rows; ++j)
             for (int i = 0; i < all_columns; ++i) {
-                optics::Box<F> cell{seen.left + F(S(i)) * du, zero, seen.low + F(S(j)) * dv, zero};
+                optics::Box<F> cell{bounds.left + F(S(i)) * du, zero, bounds.low + F(S(j)) * dv, zero};
                 cell.right = cell.left + du;
                 cell.high = cell.low + dv;
                 const optics::Mask<F> there = (F(S(i)) < columns) && (F(S(j)) < rows);
-                memory.part[j * all_columns + i] = part_of(map, {lens.i, lens.j}, corners, cell, there);
-                SeenPart& part = memory.part[j * all_columns + i];
+                memory.part[j * all_columns + i] = part_of(map, {lens.i, lens.j}, outline, cell, there);
+                LensPart& part = memory.part[j * all_columns + i];
                 part.share = part.share * share;
                 const optics::Mask<F> counts = part.share > zero;
                 part.end.alive = zero > one;
                 if (!any(counts)) continue;
-                numbers.of[domain] = part.u;
-                numbers.of[domain + 1] = part.v;
-                part.end = trace(pixels, numbers, counts);
+                coordinates.of[domain] = part.u;
+                coordinates.of[domain + 1] = part.v;
+                part.end = trace(pixels, coordinates, counts);
             }
         const optics::Vec2<S> axis = optics::axis_of(display.lattice, optics::Cell<S>{lens.i, lens.j});
-        // What each pair of the other numbers spreads.
+        // The spread of each pair of the other coordinates.
         optics::PanelCovariance<F> others[3] = {};
         for (int d = 0; d < dimensions; ++d)
             if (d / 2 != domain / 2) others[d / 2].add(F(lens.by.column[d] * width[d]), F(lens.by.row[d] * width[d]));
         for (int j = 0; j < all_rows; ++j)
             for (int i = 0; i < all_columns; ++i) {
-                const SeenPart& part = memory.part[j * all_columns + i];
+                const LensPart& part = memory.part[j * all_columns + i];
                 if (!any(part.end.alive && (part.share > zero))) continue;
-                F edge[2][2];  // of the part along each number: columns and rows
+                F edge[2][2];  // of the part along each coordinate: columns and rows
                 for (int a = 0; a < 2; ++a) {
                     const int at = a == 0 ? i : j, last = (a == 0 ? all_columns : all_rows) - 1, step = a == 0 ? 1 : all_columns;
                     F slope_c = zero, slope_r = zero, sides = zero;
                     for (int to = -1; to <= 1; to += 2) {
                         if (at + to < 0 || at + to > last) continue;
-                        const SeenPart& next = memory.part[j * all_columns + i + to * step];
+                        const LensPart& next = memory.part[j * all_columns + i + to * step];
                         const optics::Mask<F> alike = next.end.alive && (next.share > zero) &&
                                                       (next.end.cell.i == part.end.cell.i) && (next.end.cell.j == part.end.cell.j);
                         const F d = a == 0 ? next.u - part.u : next.v - part.v, per = one / select(alike, d, one);
@@ -178,17 +180,17 @@ class LensByLens : SeenLenses {
                     }
                     const F mean = select(sides > one, half, one), size = F(S(2)) * (a == 0 ? part.half_u : part.half_v);
                     optics::Mask<F> has = sides > zero;
-                    const optics::Mask<F> alone = part.end.alive && (part.share > zero) && !has;
-                    if (any(alone)) {  // one more ray, between the part's middle and its end towards the lens's axis
+                    const optics::Mask<F> isolated = part.end.alive && (part.share > zero) && !has;
+                    if (any(isolated)) {  // one more ray, between the part's middle and its end towards the lens's axis
                         const F at_axis = a == 0 ? map.u_of(F(axis.x) - map.x, F(axis.y) - map.y)
                                                  : map.v_of(F(axis.x) - map.x, F(axis.y) - map.y);
                         const F middle = a == 0 ? part.u : part.v, aside = optics::max(F(S(0.25)) * size, F(S(0.01)));
                         const F to = select(at_axis < middle, zero - aside, aside);
-                        numbers.of[domain] = a == 0 ? part.u + to : part.u;
-                        numbers.of[domain + 1] = a == 0 ? part.v : part.v + to;
-                        const optics::PanelPoint<F> beside = trace(pixels, numbers, alone);
+                        coordinates.of[domain] = a == 0 ? part.u + to : part.u;
+                        coordinates.of[domain + 1] = a == 0 ? part.v : part.v + to;
+                        const optics::PanelPoint<F> beside = trace(pixels, coordinates, isolated);
                         const optics::Mask<F> alike =
-                            alone && beside.alive && (beside.cell.i == part.end.cell.i) && (beside.cell.j == part.end.cell.j);
+                            isolated && beside.alive && (beside.cell.i == part.end.cell.i) && (beside.cell.j == part.end.cell.j);
                         slope_c = select(alike, (beside.column - part.end.column) / to, slope_c);
                         slope_r = select(alike, (beside.row - part.end.row) / to, slope_r);
                         has = has || alike;
@@ -200,43 +202,43 @@ class LensByLens : SeenLenses {
             }
     }
 
-    /// Adds the light about the end of a part's ray. Where pixels shine all over, a parallelogram that leans is read as boxes side
-    /// by side, and of what spreads light the widest is the box, all else two points of Gauss's rule along each axis.
-    LFDSIM_FN void add_boxes(const optics::PixelRays<F>& pixels, const SeenPart& part, const F (&edge)[2][2],
+    /// Adds the light about the end of a part's ray. Where pixels shine over their whole area, an oblique parallelogram is read as
+    /// boxes side by side; the widest spread is the box, and all others together are two points of Gauss's rule along each axis.
+    LFDSIM_FN void add_boxes(const optics::PixelRays<F>& pixels, const LensPart& part, const F (&edge)[2][2],
                              const optics::PanelCovariance<F> (&others)[3], optics::Light<F>& light) const {
         using L = FilteredLimits;
         const F zero = F(0), one = F(1), half = F(S(0.5));
         optics::PanelCovariance<F> other{};
         for (const optics::PanelCovariance<F>& of : others) {
-            other.wide2 = other.wide2 + of.wide2;
-            other.high2 = other.high2 + of.high2;
-            other.lean2 = other.lean2 + of.lean2;
+            other.w2 = other.w2 + of.w2;
+            other.h2 = other.h2 + of.h2;
+            other.c = other.c + of.c;
         }
-        // Pieces along the edge that leans more.
-        const auto leans = [&](int a) {
+        // Pieces along the more oblique edge.
+        const auto pieces_along = [&](int a) {
             const int across = 1 - a;
-            const F upright = optics::sqrt(edge[across][across] * edge[across][across] + (across == 0 ? other.wide2 : other.high2));
-            const F lean = optics::abs(edge[a][across]);
-            const F n =
-                optics::min(zero - optics::floor(zero - lean / (F(S(L::leaning)) * upright + F(S(1e-6)))), F(S(L::most_boxes)));
-            return select((lean > F(S(L::leaning)) * upright) && (lean > F(S(L::leaning))), n, one);
+            const F upright = optics::sqrt(edge[across][across] * edge[across][across] + (across == 0 ? other.w2 : other.h2));
+            const F skew = optics::abs(edge[a][across]);
+            const F n = optics::min(zero - optics::floor(zero - skew / (F(S(L::oblique_edge)) * upright + F(S(1e-6)))),
+                                    F(S(L::most_boxes)));
+            return select((skew > F(S(L::oblique_edge)) * upright) && (skew > F(S(L::oblique_edge))), n, one);
         };
-        F pieces_u = leans(0), pieces_v = leans(1);
+        F pieces_u = pieces_along(0), pieces_v = pieces_along(1);
         const optics::Mask<F> by_u = pieces_u > pieces_v;
         pieces_u = select(by_u, pieces_u, one);
         pieces_v = select(by_u, one, pieces_v);
         optics::Mask<F> counts = part.end.alive;
-        if (!tile.panel.whole) {  // the gaps tell a leaning line from boxes
-            optics::PanelCovariance<F> own{};
-            for (int a = 0; a < 2; ++a) own.add(edge[a][0], edge[a][1]);
-            const F area2 = (own.wide2 + other.wide2) * (own.high2 + other.high2),
-                    lean = optics::abs(own.lean2) + optics::abs(other.lean2);
-            const optics::Mask<F> leaning =
-                counts && (lean * lean > F(S(FilteredLimits::upright * FilteredLimits::upright)) * area2);
-            if (any(leaning))
-                optics::add_spread(tile.panel, pixels.base, part.end.column, part.end.row, own, other,
-                                   select(leaning, part.end.weight * part.share, zero), light);
-            counts = counts && !leaning;
+        if (!tile.panel.whole) {  // gaps distinguish an oblique line from boxes
+            optics::PanelCovariance<F> of_domain{};
+            for (int a = 0; a < 2; ++a) of_domain.add(edge[a][0], edge[a][1]);
+            const F area2 = (of_domain.w2 + other.w2) * (of_domain.h2 + other.h2),
+                    skew = optics::abs(of_domain.c) + optics::abs(other.c);
+            const optics::Mask<F> oblique =
+                counts && (skew * skew > F(S(FilteredLimits::oblique_line * FilteredLimits::oblique_line)) * area2);
+            if (any(oblique))
+                optics::add_spread(tile.panel, pixels.base, part.end.column, part.end.row, of_domain, other,
+                                   select(oblique, part.end.weight * part.share, zero), light);
+            counts = counts && !oblique;
             pieces_u = pieces_v = one;
         }
         const F pieces = pieces_u * pieces_v, per = one / pieces;
@@ -251,8 +253,8 @@ class LensByLens : SeenLenses {
                 size = optics::sqrt(largest);
                 aside = select(aside > F(S(L::aside)) * size, aside, zero);
             };
-            split(wide, optics::max(optics::max(others[0].wide2, others[1].wide2), others[2].wide2), other.wide2, aside_x);
-            split(high, optics::max(optics::max(others[0].high2, others[1].high2), others[2].high2), other.high2, aside_y);
+            split(wide, optics::max(optics::max(others[0].w2, others[1].w2), others[2].w2), other.w2, aside_x);
+            split(high, optics::max(optics::max(others[0].h2, others[1].h2), others[2].h2), other.h2, aside_y);
         }
         const bool twice_x = any(aside_x > zero), twice_y = any(aside_y > zero);
         const F points = select(aside_x > zero, F(S(2)), one) * select(aside_y > zero, F(S(2)), one);
@@ -277,7 +279,7 @@ class LensByLens : SeenLenses {
     LensByLensMemory& memory;
 };
 
-/// Not inlined, so that it has a stack frame of its own.
+/// Renders a tile lens by lens. Not inlined, so that its stack frame is separate.
 __attribute__((noinline)) void render_lens_by_lens(const Tile& tile) {
     LensByLens estimator(tile, *new (block_memory(sizeof(LensByLensMemory))) LensByLensMemory);
     constexpr std::int32_t side = optics::shared_width;

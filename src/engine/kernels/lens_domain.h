@@ -1,4 +1,4 @@
-// The estimator `lens_by_lens`: where the domain's rays cross the plane of the holes, and what of the domain lies in a lens.
+// The estimator `lens_by_lens`: the map from the sample domain to the plane of the holes, and the parts of the domain in a lens.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/devices/kernel.h"
@@ -13,9 +13,9 @@ namespace {
 using optics::any;
 using optics::select;
 
-/// The numbers of a sample, as sample_ray() asks for them.
+/// The coordinates of a sample, as sample_ray() asks for them.
 template <class G>
-struct SampleNumbers {
+struct SampleCoordinates {
     G of[optics::sampler_dimensions];
     LFDSIM_FN G operator()(int d) const { return of[d]; }
 };
@@ -30,50 +30,50 @@ struct DomainMap {
     LFDSIM_FN G v_of(G dx, G dy) const { return (dy * x_u - dx * y_u) * per_area; }
 };
 
-/// A part of a lens: one cell of the grid over what is seen of it.
-struct SeenPart {
+/// A part of a lens in the domain: one cell of the grid over its outline.
+struct LensPart {
     F share, u, v, half_u, half_v;  // of the domain; the part's middle; half of its width and height
     optics::PanelPoint<F> end;      // of the ray through the middle
 };
 
-/// The pair of numbers that lenses' outlines cut, and a sample's rays.
+/// The sample domain, which the lenses' outlines cut, and a sample's rays.
 class LensDomain {
   public:
     explicit LensDomain(const Tile& t)
         : tile(t), display(*t.display), view(*t.view), domain(tile.cuts_pixel ? 2 : 0), dimensions(t.dimensions) {}
 
-    /// Where rays with these numbers cross the plane of the holes, in the array's frame.
+    /// The points at which rays with these coordinates cross the plane of the holes, in the array's frame.
     template <class G>
-    LFDSIM_FN optics::Vec2<G> at_holes(const optics::PixelRays<G>& pixels, const SampleNumbers<G>& numbers) const {
+    LFDSIM_FN optics::Vec2<G> at_holes(const optics::PixelRays<G>& pixels, const SampleCoordinates<G>& coordinates) const {
         optics::Ray<G> ray;
-        optics::sample_ray(display, view, pixels, numbers, ray);
+        optics::sample_ray(display, view, pixels, coordinates, ray);
         optics::Vec2<G> to{ray.to.x, ray.to.y};
         if (display.rotated) to = optics::to_array(display.lattice, to.x, to.y);
         const G per = G(-1) / ray.to.z;
         return {ray.at.x + to.x * per * G(display.holes_below[0]), ray.at.y + to.y * per * G(display.holes_below[1])};
     }
-    /// By central differences at +-1/2, half way from the middle of the domain to its ends.
+    /// The map by central differences at +-1/2, half way from the middle of the domain to its ends.
     template <class G>
-    LFDSIM_FN DomainMap<G> map_of(const optics::PixelRays<G>& pixels, SampleNumbers<G> numbers) const {
+    LFDSIM_FN DomainMap<G> map_of(const optics::PixelRays<G>& pixels, SampleCoordinates<G> coordinates) const {
         const G step = G(S(0.5)), zero = G(S(0));
         optics::Vec2<G> at[5];
         for (int k = 0; k < 5; ++k) {
-            numbers.of[domain] = k == 1 ? -step : k == 2 ? step : zero;
-            numbers.of[domain + 1] = k == 3 ? -step : k == 4 ? step : zero;
-            at[k] = at_holes(pixels, numbers);
+            coordinates.of[domain] = k == 1 ? -step : k == 2 ? step : zero;
+            coordinates.of[domain + 1] = k == 3 ? -step : k == 4 ? step : zero;
+            at[k] = at_holes(pixels, coordinates);
         }
         DomainMap<G> map{at[0].x, at[0].y, at[2].x - at[1].x, at[2].y - at[1].y, at[4].x - at[3].x, at[4].y - at[3].y, zero};
         map.per_area = G(S(1)) / (map.x_u * map.y_v - map.x_v * map.y_u);
         return map;
     }
 
-    /// Half the size of what the domain spans in the plane of the holes.
+    /// Half the size of the domain's image in the plane of the holes.
     template <class G>
     LFDSIM_FN static optics::Vec2<G> reach_of(const DomainMap<G>& map, G width) {
         return {width * (optics::abs(map.x_u) + optics::abs(map.x_v)), width * (optics::abs(map.y_u) + optics::abs(map.y_v))};
     }
 
-    /// f(i, j) for the cells of the lattice that a box about (x, y) may meet.
+    /// Calls f(i, j) for the cells of the lattice that a box about (x, y) may meet.
     template <class Do>
     void for_cells(S x, S y, S half_x, S half_y, const Do& f) const {
         const Lattice<S>& lattice = display.lattice;
@@ -88,40 +88,41 @@ class LensDomain {
         }
     }
 
-    /// The outline of a lens's cell in the domain's numbers. A strip has no end.
+    /// The outline of a lens's cell in the domain's coordinates. A strip has no end.
     template <class G>
-    LFDSIM_FN optics::Corners<G> corners_of(const DomainMap<G>& map, optics::Cell<S> lens) const {
+    LFDSIM_FN optics::Polygon<G> outline_of(const DomainMap<G>& map, optics::Cell<S> lens) const {
         const Lattice<S>& lattice = display.lattice;
         const optics::Vec2<S> axis = optics::axis_of(lattice, lens);
         const G to_x = G(axis.x) - map.x, to_y = lattice.strips ? G(S(0)) : G(axis.y) - map.y;
-        optics::Corners<G> corners;
+        optics::Polygon<G> outline;
         S x[6], y[6];
         if (lattice.hexagonal) {
             const S wide = lattice.half_pitch[0], high = optics::reach_of_cell(lattice);
             const S at_x[6] = {wide, wide, 0, -wide, -wide, 0},
                     at_y[6] = {S(-0.5) * high, S(0.5) * high, high, S(0.5) * high, S(-0.5) * high, -high};
-            corners.count = 6;
+            outline.count = 6;
             for (int k = 0; k < 6; ++k) x[k] = at_x[k], y[k] = at_y[k];
         } else {
             // Between strips light may go on beside them: their cells then meet.
             const S wide = lattice.strips && !display.lit_between ? display.hole_half : lattice.half_pitch[0],
                     high = lattice.strips ? S(1) : lattice.half_pitch[1];
-            corners.count = 4;
+            outline.count = 4;
             for (int k = 0; k < 4; ++k) x[k] = k < 2 ? wide : -wide, y[k] = k == 1 || k == 2 ? high : -high;
         }
         const G along = lattice.strips ? S(2) * reach_of(map, G(S(1))).y : G(S(1));
-        for (int k = 0; k < corners.count; ++k) {
+        for (int k = 0; k < outline.count; ++k) {
             const G dx = to_x + G(x[k]), dy = to_y + G(y[k]) * along;
-            corners.x[k] = map.u_of(dx, dy);
-            corners.y[k] = map.v_of(dx, dy);
+            outline.x[k] = map.u_of(dx, dy);
+            outline.y[k] = map.v_of(dx, dy);
         }
-        return corners;
+        return outline;
     }
 
-    /// Where rays with these numbers end on the panel.
-    optics::PanelPoint<F> trace(const optics::PixelRays<F>& pixels, const SampleNumbers<F>& numbers, optics::Mask<F> some) const {
+    /// The ends of rays with these coordinates on the panel.
+    optics::PanelPoint<F> trace(const optics::PixelRays<F>& pixels, const SampleCoordinates<F>& coordinates,
+                                optics::Mask<F> some) const {
         optics::Ray<F> ray;
-        optics::sample_ray(display, view, pixels, numbers, ray);
+        optics::sample_ray(display, view, pixels, coordinates, ray);
         return optics::trace_any<F>(display, pixels.extent, pixels.base, ray, some && pixels.alive);
     }
 
@@ -156,8 +157,8 @@ class LensDomain {
         const auto half_width = [&](G variance) { return optics::sqrt(G(S(3)) * optics::max(variance, zero)); };
         return {sum * span, centre_u + u, centre_v + v, half_width(sum_uu * per_sum - u * u), half_width(sum_vv * per_sum - v * v)};
     }
-    /// Does the hole hold the cell?
-    LFDSIM_FN optics::Mask<F> hole_holds(const DomainMap<F>& map, F from_x, F from_y, const optics::Box<F>& cell) const {
+    /// Whether the hole contains the cell.
+    LFDSIM_FN optics::Mask<F> hole_contains(const DomainMap<F>& map, F from_x, F from_y, const optics::Box<F>& cell) const {
         F most = F(0);
         for (int k = 0; k < 4; ++k) {
             const F u = k % 2 == 1 ? cell.right : cell.left, v = k >= 2 ? cell.high : cell.low;
@@ -168,17 +169,17 @@ class LensDomain {
     }
 
     /// The part of a cell that lies in a lens.
-    LFDSIM_FN SeenPart part_of(const DomainMap<F>& map, optics::Cell<S> lens, const optics::Corners<F>& corners,
+    LFDSIM_FN LensPart part_of(const DomainMap<F>& map, optics::Cell<S> lens, const optics::Polygon<F>& outline,
                                const optics::Box<F>& cell, optics::Mask<F> there) const {
         const F zero = F(0), half = F(S(0.5)), du = cell.right - cell.left, dv = cell.high - cell.low;
-        SeenPart part{
+        LensPart part{
             F(S(0.25)) * du * dv, half * (cell.left + cell.right), half * (cell.low + cell.high), half * du, half * dv, {}};
         const bool round = display.hole_radius > S(0) && !display.lit_between;
         const optics::Vec2<S> axis = optics::axis_of(display.lattice, lens);
         const F from_x = map.x - F(axis.x), from_y = map.y - (display.lattice.strips ? map.y : F(axis.y));
-        const optics::Mask<F> cut = there && !(round ? hole_holds(map, from_x, from_y, cell) : optics::holds(corners, cell));
+        const optics::Mask<F> cut = there && !(round ? hole_contains(map, from_x, from_y, cell) : optics::contains(outline, cell));
         if (any(cut)) {
-            const optics::Moments<F> of = round ? part_in_hole(map, from_x, from_y, cell) : optics::part_within(corners, cell);
+            const optics::Moments<F> of = round ? part_in_hole(map, from_x, from_y, cell) : optics::part_within(outline, cell);
             part.share = select(cut, F(S(0.25)) * of.area, part.share);
             part.u = select(cut, of.x, part.u);
             part.v = select(cut, of.y, part.v);
@@ -192,7 +193,7 @@ class LensDomain {
     const Tile& tile;
     const optics::TracedDisplay<S>& display;
     const optics::RayOrigin& view;
-    const int domain, dimensions;  // the domain's first number; how many numbers a sample has
+    const int domain, dimensions;  // the domain's first coordinate; the number of coordinates of a sample
 };
 
 }  // namespace

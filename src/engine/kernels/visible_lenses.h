@@ -1,4 +1,4 @@
-// The estimator `lens_by_lens`: the lenses that a group of 4 x 4 pixels sees, and how the ends of their rays move.
+// The estimator `lens_by_lens`: the lenses visible to a group of 4 x 4 pixels, and the derivatives of their rays' ends.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/estimator/limits.h"
@@ -9,27 +9,28 @@ namespace lfdsim {
 
 namespace {
 
-/// How the end of a ray through a lens moves on the panel with each of its numbers, panel pixels.
+/// The derivatives of a ray's end on the panel by each of its sample coordinates, panel pixels.
 struct Derivatives {
     S column[optics::sampler_dimensions], row[optics::sampler_dimensions];
     bool known;
 };
 
 constexpr int most_divisions = max_strata;
-constexpr int most_seen_lenses = 256;
+constexpr int most_visible_lenses = 256;
 
-/// A lens that the pixels of a group see.
-struct SeenLens {
+/// A lens that is visible to the pixels of a group.
+struct VisibleLens {
     S i, j;
     Derivatives by;
 };
 
-/// The lenses that a group of pixels sees, and into how many cells it divides each pair of numbers.
-class SeenLenses : public LensDomain {
+/// The lenses visible to a group of pixels, and the number of cells into which each pair of sample coordinates is divided.
+class VisibleLenses : public LensDomain {
   public:
-    SeenLenses(const Tile& t, SeenLens* room) : LensDomain(t), lenses(room) {}
+    VisibleLenses(const Tile& t, VisibleLens* padded) : LensDomain(t), lenses(padded) {}
 
-    /// Lists the lenses that a group sees, with the derivatives of their rays; false: there are too many, or the domain is no area.
+    /// Lists the lenses visible to a group, with the derivatives of their rays; false: there are too many, or the domain has no
+    /// area.
     bool list_lenses(std::int32_t x, std::int32_t y) {
         // The group's middle, as the packets' rays are: relative to the base lens that they share.
         const double middle_x = x + side / 2, middle_y = y + side / 2;
@@ -47,11 +48,11 @@ class SeenLenses : public LensDomain {
         count = 0;
         for (S& of : spread) of = 0;
         if (!middle.alive) return false;
-        const SampleNumbers<S> none{};
+        const SampleCoordinates<S> none{};
         const DomainMap<S> map = map_of(middle, none);
         if (!(optics::abs(map.per_area) < S(1e12))) return false;
-        // What the group's pixels, and other numbers than the domain's, move the plane of the holes by: in mm and in the domain's
-        // numbers.
+        // The motion over the plane of the holes due to the group's pixels and to coordinates other than the domain's: in mm and in
+        // the domain's coordinates.
         optics::Vec2<S> half = reach_of(map, S(1)), more{S(0), S(0)};
         S widen_u = 0, widen_v = 0;
         const auto moved = [&](optics::Vec2<S> to) {
@@ -64,25 +65,25 @@ class SeenLenses : public LensDomain {
         moved(at_holes(ray_at(middle_x, middle_y + side / 2), none));
         for (int d = 0; d < dimensions; ++d) {
             if (d / 2 == domain / 2) continue;
-            SampleNumbers<S> one = none;
+            SampleCoordinates<S> one = none;
             one.of[d] = 1;
             moved(at_holes(middle, one));
         }
         half = {half.x + more.x, half.y + more.y};
         const S columns = S(2) * half.x * display.lattice.per_pitch[0] + S(2),
                 rows = display.lattice.strips ? S(1) : S(2) * half.y * display.lattice.per_pitch[1] + S(2);
-        if (!(columns * rows < S(2 * most_seen_lenses))) return false;
-        const optics::Box<S> seen{-1 - widen_u, 1 + widen_u, -1 - widen_v, 1 + widen_v};
+        if (!(columns * rows < S(2 * most_visible_lenses))) return false;
+        const optics::Box<S> widened{-1 - widen_u, 1 + widen_u, -1 - widen_v, 1 + widen_v};
         S weight = 0;
         for_cells(map.x, map.y, half.x, half.y, [&](S i, S j) {
             if (!display.lit_between && !base.extent.holds(optics::Cell<S>{i, j})) return;
             const optics::Vec2<S> axis = optics::axis_of(display.lattice, optics::Cell<S>{i, j});
             optics::Moments<S> part = display.hole_radius > S(0) && !display.lit_between
-                                          ? part_in_hole(map, map.x - axis.x, map.y - axis.y, seen)
-                                          : optics::part_within(corners_of(map, {i, j}), seen);
+                                          ? part_in_hole(map, map.x - axis.x, map.y - axis.y, widened)
+                                          : optics::part_within(outline_of(map, {i, j}), widened);
             if (!(part.area > 0)) return;
-            if (count++ >= most_seen_lenses) return;
-            SeenLens& lens = lenses[count - 1];
+            if (count++ >= most_visible_lenses) return;
+            VisibleLens& lens = lenses[count - 1];
             lens.i = i;
             lens.j = j;
             lens.by = derivatives_at(middle, part);
@@ -98,30 +99,30 @@ class SeenLenses : public LensDomain {
         });
         for (S& of : spread) of = weight > 0 ? of / weight : S(0);
         divide();
-        return count <= most_seen_lenses;
+        return count <= most_visible_lenses;
     }
 
-    /// Traces the ray through the middle of a part, and rays to both sides of it in each number, all from the group's middle.
+    /// Traces the ray through the middle of a part, and rays to both sides of it in each coordinate, all from the group's middle.
     Derivatives derivatives_at(const optics::PixelRays<S>& middle, const optics::Moments<S>& part) const {
         constexpr int rays = 1 + 2 * optics::sampler_dimensions, lanes = optics::LaneTraits<F>::width,
-                      room = (rays + lanes - 1) / lanes * lanes;
-        S numbers[optics::sampler_dimensions][room] = {}, step[optics::sampler_dimensions];
+                      padded = (rays + lanes - 1) / lanes * lanes;
+        S coordinates[optics::sampler_dimensions][padded] = {}, step[optics::sampler_dimensions];
         for (int d = 0; d < optics::sampler_dimensions; ++d) step[d] = S(0.25);
         step[domain] = optics::max(S(0.5) * part.half_width, S(0.01));
         step[domain + 1] = optics::max(S(0.5) * part.half_height, S(0.01));
-        for (int k = 0; k < room; ++k) {
-            numbers[domain][k] = part.x;
-            numbers[domain + 1][k] = part.y;
+        for (int k = 0; k < padded; ++k) {
+            coordinates[domain][k] = part.x;
+            coordinates[domain + 1][k] = part.y;
             const int d = (k - 1) / 2;
-            if (k > 0 && d < dimensions) numbers[d][k] = numbers[d][k] + (k % 2 == 1 ? step[d] : -step[d]);
+            if (k > 0 && d < dimensions) coordinates[d][k] = coordinates[d][k] + (k % 2 == 1 ? step[d] : -step[d]);
         }
-        S column[room], row[room], lit[room], i[room], j[room];
+        S column[padded], row[padded], lit[padded], i[padded], j[padded];
         const optics::PixelRays<F> same{F(middle.x),          F(middle.y), {F(middle.to.x), F(middle.to.y), F(middle.to.z)},
                                         F(middle.per_length), F(0) < F(1), middle.extent,
                                         middle.base};
-        for (int k = 0; k < room; k += lanes) {
-            SampleNumbers<F> of;
-            for (int d = 0; d < optics::sampler_dimensions; ++d) of.of[d] = optics::load<F>(numbers[d] + k);
+        for (int k = 0; k < padded; k += lanes) {
+            SampleCoordinates<F> of;
+            for (int d = 0; d < optics::sampler_dimensions; ++d) of.of[d] = optics::load<F>(coordinates[d] + k);
             const optics::PanelPoint<F> end = trace(same, of, same.alive);
             optics::store(end.column, column + k);
             optics::store(end.row, row + k);
@@ -146,19 +147,19 @@ class SeenLenses : public LensDomain {
         return by;
     }
 
-    /// Divides the pairs of numbers, N cells in all at most: always the pair with the largest spread on the panel per division. The
-    /// widest of the other pairs is what a box serves best, so it counts less.
+    /// Divides the pairs of coordinates, N cells in all at most: always the pair with the largest spread on the panel per division.
+    /// The widest of the other pairs is read as a box, so it counts less.
     void divide() {
-        const int pairs = dimensions / 2, own = domain / 2, most = tile.strata * tile.strata;
+        const int pairs = dimensions / 2, domain_pair = domain / 2, most = tile.strata * tile.strata;
         for (int& n : divisions) n = 1;
         S of[3] = {spread[0], spread[1], spread[2]};
         int widest = -1;
         for (int q = 0; q < pairs; ++q)
-            if (q != own && (widest < 0 || of[q] > of[widest])) widest = q;
+            if (q != domain_pair && (widest < 0 || of[q] > of[widest])) widest = q;
         if (widest >= 0) of[widest] = of[widest] * S(FilteredLimits::boxed_spread);
-        of[own] = optics::max(of[own], S(0.5) * (spread[0] + spread[1] + spread[2]));
+        of[domain_pair] = optics::max(of[domain_pair], S(0.5) * (spread[0] + spread[1] + spread[2]));
         if (pairs == 1) {
-            divisions[own] = tile.strata;
+            divisions[domain_pair] = tile.strata;
             return;
         }
         for (;;) {
@@ -174,10 +175,10 @@ class SeenLenses : public LensDomain {
     }
 
     static constexpr int side = optics::shared_width;  // of a group
-    SeenLens* const lenses;
-    int count = 0;                 // of lenses that the group sees
-    S spread[3] = {};              // of each pair of numbers, over the panel, pixels
-    int divisions[3] = {1, 1, 1};  // of each pair along both of its numbers
+    VisibleLens* const lenses;
+    int count = 0;                 // of visible lenses
+    S spread[3] = {};              // of each pair of coordinates, over the panel, pixels
+    int divisions[3] = {1, 1, 1};  // of each pair along both of its coordinates
 };
 
 }  // namespace

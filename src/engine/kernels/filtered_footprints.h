@@ -1,4 +1,4 @@
-// The filtered estimator: makes the bundles of a block (engine/estimator/shared_footprint.h), one or two for each stratum.
+// The filtered estimator: the shared footprints of a block (engine/estimator/shared_footprint.h), one or two for each stratum.
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 //
 // A stratum is a cell of the grid into which cut_axis() cuts the diffuser's two angles; what it spans is also a rectangle in the
@@ -17,7 +17,7 @@ namespace {
 
 using LitFootprint = optics::LitFootprint<S>;
 
-/// What a block sees through a stratum: through its hole and, where light passes there too, beside the hole.
+/// The footprints of a block through a stratum: through its hole and, where light passes there too, beside the hole.
 struct SharedFootprints {
     LitFootprint through, beside;
 };
@@ -55,9 +55,10 @@ bool clip_beside_hole(S radius, StratumRange& x, StratumRange& y) {
     return true;
 }
 
-class BundleMaker {
+/// Traces the footprints that the pixels of a block share.
+class FootprintMaker {
   public:
-    BundleMaker(const Tile& t, const optics::PixelBlock<S>& of, const Axis (&axes)[2])
+    FootprintMaker(const Tile& t, const optics::PixelBlock<S>& of, const Axis (&axes)[2])
         : tile(t),
           display(*t.display),
           block(of),
@@ -76,44 +77,44 @@ class BundleMaker {
         }
     }
 
-    /// Makes all bundles of the block, row after row. False: one is broken.
-    bool make_all(SharedFootprints* bundles) {
+    /// Makes all footprints of the block, row after row. False: one is unshared.
+    bool make_all(SharedFootprints* footprints) {
         const int across = axis[0].strata, count = across * axis[1].strata;
-        const auto broken = [](const SharedFootprints& b) {
-            return b.through.state == State::broken || b.beside.state == State::broken;
+        const auto unshared = [](const SharedFootprints& b) {
+            return b.through.state == State::unshared || b.beside.state == State::unshared;
         };
         for (int k = 0; k < count; ++k) {
-            make(bundles[k], k % across, k / across);
-            if (broken(bundles[k])) return false;
+            make(footprints[k], k % across, k / across);
+            if (unshared(footprints[k])) return false;
         }
         finish();
         for (int k = 0; k < count; ++k)
-            if (broken(bundles[k])) return false;
+            if (unshared(footprints[k])) return false;
         return true;
     }
 
   private:
-    using Shape = optics::SharedFootprint<S>;
-    using State = Shape::State;
+    using Footprint = optics::SharedFootprint<S>;
+    using State = Footprint::State;
     using Sums = optics::NodeSums<S, optics::most_nodes * optics::most_nodes>;
 
-    /// Makes the bundles of stratum (i, j), column i and row j, and queues the rays that follow those through the hole over the
+    /// Makes the footprints of stratum (i, j), column i and row j, and queues the rays that follow that through the hole over the
     /// block.
     void make(SharedFootprints& b, int i, int j) {
         const S r = display.hole_radius;
         const Stratum &across = axis[0].stratum[i], &up = axis[1].stratum[j];
-        b.through.state = b.beside.state = State::dark;
+        b.through.state = b.beside.state = State::unlit;
         for (int side = 0; side < (display.lit_between && r > 0 ? 2 : 1); ++side) {
             const bool inside = side == 0;
             StratumRange x{across.from, across.to}, y{up.from, up.to};
             if (r > 0 && !(inside ? clip_to_hole(r, x, y) : clip_beside_hole(r, x, y))) continue;
             LitFootprint& to = inside ? b.through : b.beside;
-            const Shape shape = probe(i, x, j, y, inside, to.colour);
+            const Footprint shape = probe(i, x, j, y, inside, to.colour);
             to.state = shape.state;
-            if (shape.state == State::broken) return;
-            if (shape.state == State::dark) continue;
-            static_cast<Shape&>(to) = shape;
-            if (inside && shape.state == State::sharp) follow(to);
+            if (shape.state == State::unshared) return;
+            if (shape.state == State::unlit) continue;
+            static_cast<Footprint&>(to) = shape;
+            if (inside && shape.state == State::narrow) follow(to);
         }
     }
 
@@ -130,35 +131,35 @@ class BundleMaker {
         optics::trace_probes<F>(display, block, probes, per_axis * per_axis);
     }
 
-    /// The bundle of a part of stratum (i, j), inside its hole or beside it. The motion of sharp ones through it is left to
-    /// follow(); the light of soft ones goes to `colour`.
-    Shape probe(int i, StratumRange x, int j, StratumRange y, bool inside, S (*colour)[4]) {
+    /// The footprint of a part of stratum (i, j), inside its hole or beside it. The motion of a narrow one through the hole is left
+    /// to follow(); the light of a wide one goes to `colour`.
+    Footprint probe(int i, StratumRange x, int j, StratumRange y, bool inside, S (*colour)[4]) {
         trace(i, x, j, y, inside);
-        Shape b = optics::sum_up(probes, per_axis);
-        if (b.state != State::sharp) return b;
+        Footprint b = optics::sum_up(probes, per_axis);
+        if (b.state != State::narrow) return b;
         const S size = optics::max(b.width, b.height);
-        bool soft = size > S(FilteredLimits::soft);
-        if (soft && !display.emission.whole && size < S(FilteredLimits::masked)) {
-            b.state = State::broken;
+        bool wide = size > S(FilteredLimits::narrow);
+        if (wide && !display.emission.whole && size < S(FilteredLimits::masked)) {
+            b.state = State::unshared;
             return b;
         }
-        if (!soft) lean(b, i, x, j, y);
-        if (soft || !inside) {
+        if (!wide) clip_to_domain(b, i, x, j, y);
+        if (wide || !inside) {
             follow(b);
             finish();
-            if (inside && b.state == State::broken) return b;
-            // The little light beside holes, where it moves unevenly, counts as the block's middle sees it.
-            if (b.state == State::broken) b.still = soft = true;
+            if (inside && b.state == State::unshared) return b;
+            // The little light beside holes, where it moves non-linearly, counts as seen from the block's middle.
+            if (b.state == State::unshared) b.stationary = wide = true;
         }
-        if (!soft) return b;
-        b.state = State::soft;
-        // The part of an outermost stratum that a pixel sees changes over the block.
-        const bool ends = axis[0].stratum[i].cut_off || axis[1].stratum[j].cut_off;
-        b.nodes = !b.still ? block.nodes() : ends ? 2 : 1;
+        if (!wide) return b;
+        b.state = State::wide;
+        // The visible part of an outermost stratum changes over the block.
+        const bool ends = axis[0].stratum[i].at_edge || axis[1].stratum[j].at_edge;
+        b.nodes = !b.stationary ? block.nodes() : ends ? 2 : 1;
         Sums sums;
         // Wider footprints get more probes.
         const int parts =
-            b.still ? optics::min(FilteredLimits::most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
+            b.stationary ? optics::min(FilteredLimits::most_parts, 1 + int(optics::max(b.width, b.height) * part_per_pixel)) : 1;
         for (int k = 0; k < parts * parts; ++k) {
             auto part = [parts](StratumRange r, int n) {
                 const S step = (r.to - r.from) / S(parts);
@@ -170,32 +171,32 @@ class BundleMaker {
         }
         b.weight = 1;
         // Did the first probes meet only points at the edge of the part?
-        if (!sums.means(b.nodes * b.nodes, colour)) b.state = State::broken;
+        if (!sums.means(b.nodes * b.nodes, colour)) b.state = State::unshared;
         return b;
     }
 
-    /// Pixels see only parts of the outermost strata. Reduces a sharp footprint, made by probes over all of stratum (i, j), to what
-    /// the block's middle sees, and adds the motion of the seen part's middle to that of the bundle (lean). The map from holes to
-    /// panel is taken as linear (optics::Slopes); the variance of a box of width w is w^2 / 12, so squared widths subtract.
-    void lean(Shape& b, int i, StratumRange x, int j, StratumRange y) const {
-        if (!axis[0].stratum[i].cut_off && !axis[1].stratum[j].cut_off) return;
-        const optics::Slopes<S> slopes(probes, b);
+    /// Reduces a narrow footprint, made by probes over all of stratum (i, j), to the part of an outermost stratum that the block's
+    /// middle sees, and stores the motion of that part's middle (part_column, part_row). The map from holes to panel is taken as
+    /// linear (optics::PanelSlopes); the variance of a box of width w is w^2 / 12, so squared widths subtract.
+    void clip_to_domain(Footprint& b, int i, StratumRange x, int j, StratumRange y) const {
+        if (!axis[0].stratum[i].at_edge && !axis[1].stratum[j].at_edge) return;
+        const optics::PanelSlopes<S> slopes(probes, b);
         const StratumRange ranges[2] = {x, y};
         const int strata[2] = {i, j};
         S width = b.width * b.width, height = b.height * b.height;
         for (int a = 0; a < 2; ++a) {
-            if (!axis[a].stratum[strata[a]].cut_off) continue;
-            const StratumRange all = ranges[a], here = seen_of(a, strata[a], all, 0, 0), right = seen_of(a, strata[a], all, 1, 0),
-                               down = seen_of(a, strata[a], all, 0, 1);
-            if (!(here.length() > S(FilteredLimits::part_seen) * all.length()))
+            if (!axis[a].stratum[strata[a]].at_edge) continue;
+            const StratumRange all = ranges[a], here = visible_part(a, strata[a], all, 0, 0),
+                               right = visible_part(a, strata[a], all, 1, 0), down = visible_part(a, strata[a], all, 0, 1);
+            if (!(here.length() > S(FilteredLimits::part_visible) * all.length()))
                 continue;  // other pixels see parts of it that differ too much from this one
             const S from_all = here.middle() - all.middle(), per = S(1) / S(block.reach),
                     moves[2] = {(right.middle() - here.middle()) * per, (down.middle() - here.middle()) * per};
             b.column = b.column + slopes.column[a] * from_all;
             b.row = b.row + slopes.row[a] * from_all;
             for (int k = 0; k < 2; ++k) {
-                b.lean_column[k] = b.lean_column[k] + slopes.column[a] * moves[k];
-                b.lean_row[k] = b.lean_row[k] + slopes.row[a] * moves[k];
+                b.part_column[k] = b.part_column[k] + slopes.column[a] * moves[k];
+                b.part_row[k] = b.part_row[k] + slopes.row[a] * moves[k];
             }
             const S less = all.length() * all.length() - here.length() * here.length();
             width = width - slopes.column[a] * slopes.column[a] * less;
@@ -205,7 +206,7 @@ class BundleMaker {
         b.height = optics::sqrt(optics::max(height, S(0)));
     }
 
-    /// All that a pixel at (dx, dy) of the block, -1 .. 1, sees along axis a, from the axis of a stratum's lens.
+    /// The ends of the domain of a pixel at (dx, dy) of the block, -1 .. 1, along axis a, from the axis of a stratum's lens.
     StratumRange ends_of(int a, int stratum, S dx, S dy) const {
         const S start = axis[a].first.at(dx, dy), end = axis[a].last.at(dx, dy), at = axis[a].stratum[stratum].axis;
         return {optics::min(start, end) - at, optics::max(start, end) - at};
@@ -213,17 +214,17 @@ class BundleMaker {
 
     /// The part of a range of a stratum along axis a that a pixel at (dx, dy) of the block, -1 .. 1, sees; an empty range at the
     /// nearest end if it sees none.
-    StratumRange seen_of(int a, int stratum, StratumRange r, S dx, S dy) const {
-        const StratumRange seen = ends_of(a, stratum, dx, dy);
-        return {optics::min(optics::max(r.from, seen.from), r.to), optics::max(optics::min(r.to, seen.to), r.from)};
+    StratumRange visible_part(int a, int stratum, StratumRange r, S dx, S dy) const {
+        const StratumRange visible = ends_of(a, stratum, dx, dy);
+        return {optics::min(optics::max(r.from, visible.from), r.to), optics::max(optics::min(r.to, visible.to), r.from)};
     }
 
     /// Adds the light of the probes' boxes to the sums at the nodes, each weighted with the share of its part of the range that a
     /// pixel at the node sees.
-    void add_nodes(const Shape& b, int i, StratumRange x, int j, StratumRange y, Sums& sums) {
+    void add_nodes(const Footprint& b, int i, StratumRange x, int j, StratumRange y, Sums& sums) {
         optics::ProbeBoxes<S> boxes;
         boxes.make<F>(probes, per_axis);
-        const bool cut_off[2] = {axis[0].stratum[i].cut_off, axis[1].stratum[j].cut_off};
+        const bool at_edge[2] = {axis[0].stratum[i].at_edge, axis[1].stratum[j].at_edge};
         const optics::PanelLight panel = tile.panel;
         const optics::PanelBase<S> base = block.lens.panel;
         S light[optics::most_probes][4];
@@ -232,37 +233,38 @@ class BundleMaker {
             for (int column = 0; column < b.nodes; ++column) {
                 const S right = first + S(column) * step, down = first + S(row) * step;  // -1 .. 1
                 const int n = row * b.nodes + column;
-                if (n == 0 || !b.still) {
-                    const S move = b.still ? S(0) : reach;
+                if (n == 0 || !b.stationary) {
+                    const S move = b.stationary ? S(0) : reach;
                     boxes.look<F>(probes, panel, base, (b.column_right * right + b.column_down * down) * move,
                                   (b.row_right * right + b.row_down * down) * move, light);
                 }
-                S seen[optics::most_probes];
-                for (int p = 0; p < optics::most_probes; ++p) seen[p] = counts[p];
-                if (cut_off[0]) narrow(0, i, x, grid_x, right, down, seen);
-                if (cut_off[1]) narrow(1, j, y, grid_y, right, down, seen);
-                sums.add(n, seen, light);
+                S visible[optics::most_probes];
+                for (int p = 0; p < optics::most_probes; ++p) visible[p] = counts[p];
+                if (at_edge[0]) weigh_visible(0, i, x, grid_x, right, down, visible);
+                if (at_edge[1]) weigh_visible(1, j, y, grid_y, right, down, visible);
+                sums.add(n, visible, light);
             }
         }
     }
 
-    /// Multiplies `seen` of each probe by the share of its part of a range along axis a that a pixel at (dx, dy) of the block sees.
-    void narrow(int a, int stratum, StratumRange r, const S* places, S dx, S dy, S* seen) const {
+    /// Multiplies `visible` of each probe by the share of its part of a range along axis a that a pixel at (dx, dy) of the block
+    /// sees.
+    void weigh_visible(int a, int stratum, StratumRange r, const S* places, S dx, S dy, S* visible) const {
         const StratumRange ends = ends_of(a, stratum, dx, dy);
         const S range = r.to - r.from, half = S(0.5) * range / S(per_axis);
         if (!(half > 0)) return;
         const S per = S(0.5) / half,
-                least = S(FilteredLimits::least_seen);  // where nothing is seen, the mean over all of it serves interpolation
+                least = S(FilteredLimits::least_visible);  // where no part is visible, the mean over all of it serves interpolation
         for (int p = 0; p < optics::most_probes; ++p) {
             const S middle = r.from + places[p] * range,
                     part = optics::min(ends.to, middle + half) - optics::max(ends.from, middle - half);
-            seen[p] = seen[p] * optics::min(optics::max(part * per, least), S(1));
+            visible[p] = visible[p] * optics::min(optics::max(part * per, least), S(1));
         }
     }
 
-    /// Queues three rays from the block's points 1 .. 3 (optics::block_rays) through the bundle's point in the plane of the holes.
-    /// finish() derives the bundle's motion over the block from them.
-    void follow(Shape& b) {
+    /// Queues three rays from the block's points 1 .. 3 (optics::block_rays) through the footprint's point in the plane of the
+    /// holes. finish() derives the footprint's motion over the block from them.
+    void follow(Footprint& b) {
         for (int from = 1; from < optics::block_rays; ++from) {
             const int p = rays_each * waiting + from - 1;
             rays.at_x[p] = block.sweep[0][from].at;
@@ -273,17 +275,17 @@ class BundleMaker {
         followed[waiting++] = &b;
         if (waiting == most_waiting) finish();
     }
-    /// Traces the queued rays, and completes the bundles that wait for them.
+    /// Traces the queued rays, and completes the footprints that wait for them.
     void finish() {
         if (waiting > 0) optics::trace_probes<F>(display, block, rays, rays_each * waiting);
         for (int k = 0; k < waiting; ++k) {
-            Shape& b = *followed[k];
+            Footprint& b = *followed[k];
             optics::follow(b, rays, rays_each * k, block.reach);
-            if (b.state != State::sharp) continue;
-            b.column_right = b.column_right + b.lean_column[0];
-            b.row_right = b.row_right + b.lean_row[0];
-            b.column_down = b.column_down + b.lean_column[1];
-            b.row_down = b.row_down + b.lean_row[1];
+            if (b.state != State::narrow) continue;
+            b.column_right = b.column_right + b.part_column[0];
+            b.row_right = b.row_right + b.part_row[0];
+            b.column_down = b.column_down + b.part_column[1];
+            b.row_down = b.row_down + b.part_row[1];
         }
         waiting = 0;
     }
@@ -294,11 +296,11 @@ class BundleMaker {
     const optics::TracedDisplay<S>& display;
     const optics::PixelBlock<S>& block;
     const Axis (&axis)[2];
-    int per_axis;  // probes along an axis of a stratum: more in coarser strata, as they also have to find what is dark there
+    int per_axis;  // probes along an axis of a stratum: more in coarser strata, as they also have to find what is unlit there
     S grid_x[optics::most_probes], grid_y[optics::most_probes],
         counts[optics::most_probes];  // the probes' positions in a stratum, 0 .. 1; 1 for those in use
     optics::Probes<S> probes, rays;
-    Shape* followed[most_waiting];
+    Footprint* followed[most_waiting];
     int waiting = 0;
 };
 
