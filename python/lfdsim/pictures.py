@@ -60,7 +60,7 @@ def render(
         seed=seed,
     )
     if panel is not None and model is not None:
-        raise InputError([("panel, model", "the panel shows one thing; give one of them")])
+        raise InputError([("panel, model", "the panel can show only one of these; give one of them")])
     codes_or_light, prepared = panel_of(panel)
     part = corners(crop, *view["camera.resolution"])
     with shown(progress) as report:

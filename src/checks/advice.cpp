@@ -27,9 +27,9 @@ void advise_on_lenses(Advised& a) {
     const bool pinhole = d.lens.type() == LensType::pinhole;
     if (!pinhole && !(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
         a.say(
-            "the lenses have hardly any power (focal length {:.5g} mm, the panel {:.5g} mm behind them): the panel itself is "
-            "seen through them, and no views. Use glass of an index well above 1 (--set lens.index=1.4918), or surfaces that are "
-            "more curved",
+            "the lenses have almost no power (focal length {:.5g} mm, the panel {:.5g} mm behind them): they form no views, and "
+            "the panel itself is visible through them. Use glass of an index well above 1 (--set lens.index=1.4918), or surfaces "
+            "that are more curved",
             g.focal_length_mm, g.gap_mm);
     // Beyond a hundred panel heights an image plane is practically at infinity: intended where the scene is far away too, and under
     // strips, which are focused on the panel so that an eye sees one view through each.
@@ -37,7 +37,7 @@ void advise_on_lenses(Advised& a) {
              !is_sharp(t, g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm))
         a.say("the gap is about the focal length ({:.6g} and {:.6g} mm): the central depth plane is at infinity", g.gap_mm,
               g.focal_length_mm);
-    if (g.focal_length_mm < 0) a.say("the lens is a diverging one: it has no real image of the panel at any gap");
+    if (g.focal_length_mm < 0) a.say("the lens diverges: it forms no real image of the panel at any gap");
 
     const bool strips = is_strips(d.array);
     const std::size_t few = strips || t.along[0].views <= t.along[1].views ? 0 : 1;

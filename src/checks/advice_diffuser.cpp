@@ -60,7 +60,7 @@ void advise_on_diffuser(Advised& a) {
         strips ? fmt::format("dark bands between the lenses (Michelson contrast {:.2f} across the strips)", across)
                : fmt::format("dark bands between the lenses (Michelson contrast {:.2f} across, {:.2f} upwards)", across, up);
     if (bands && !d.diffuser && !joined_by_pupil(d, g, eye))
-        a.say("{}: the lenses do not fill their cells, and no diffuser joins them. Add one of {}", seen, best);
+        a.say("{}: the lenses do not fill their cells, and no diffuser closes the gaps. Add one of {}", seen, best);
     if (!d.diffuser) return;
 
     // Along strips there are no views to mix.
@@ -80,14 +80,14 @@ void advise_on_diffuser(Advised& a) {
         const std::string spreads =
             strips ? fmt::format("{:.3g} lens pitches along the panel's {}; 1", spread(main), main == 0 ? "rows" : "columns")
                    : fmt::format("{:.3g} x {:.3g} lens pitches; 1 x 1", spread(0), spread(1));
-        a.say("{}: the diffuser spreads lines of sight over {} would join the lenses. {}", seen, spreads, remedy);
+        a.say("{}: the diffuser spreads lines of sight over {} would close the gaps. {}", seen, spreads, remedy);
     }
     if (strong > strongest_deg)
         a.say(
             "the diffuser ({:.4g} x {:.4g} degrees) is stronger than {:g} degrees: it mixes views far apart in a field of view of "
-            "{:.4g} degrees. {:.4g} degrees join the lenses{}",
+            "{:.4g} degrees. {:.4g} degrees close the gaps between lenses{}",
             wide, high, strongest_deg, a.theory.along[0].fov_elemental_deg, angle[main],
-            too_near ? ", fewer do from farther in front of them (--set diffuser.distance_mm)" : "");
+            too_near ? ", fewer at a greater distance (--set diffuser.distance_mm)" : "");
 }
 
 }  // namespace lfdsim

@@ -12,14 +12,13 @@ void advise_on_eye(Advised& a) {
     const double eye = eye_distance_mm(d), made_for = d.content.viewing_distance_mm, nearest = nearest_eye_mm(g);
     if (!(eye > nearest))
         a.say(
-            "the camera, {:.5g} mm from the panel, stands inside the display, whose lenses and diffuser reach to {:.5g} mm: "
-            "move it farther away (--set 'camera.position_mm=[0, 0, {:.5g}]')",
+            "the camera, {:.5g} mm from the panel, is inside the display, which ends {:.5g} mm from the panel: move it farther "
+            "away (--set 'camera.position_mm=[0, 0, {:.5g}]')",
             eye, nearest, 20 * nearest);
     if (!(made_for > nearest))
         a.say(
-            "content.viewing_distance_mm = {:.5g} puts the eye that the elemental images are made for inside the display, whose "
-            "lenses and diffuser reach to {:.5g} mm. The usual value is the camera's distance (--set "
-            "content.viewing_distance_mm={:.5g})",
+            "content.viewing_distance_mm = {:.5g} puts the viewer of the elemental images inside the display, which ends {:.5g} mm "
+            "from the panel. The usual value is the camera's distance (--set content.viewing_distance_mm={:.5g})",
             made_for, nearest, eye);
     if (!(eye > nearest && made_for > nearest)) return;
 
@@ -30,7 +29,8 @@ void advise_on_eye(Advised& a) {
     const std::size_t far = off_axis[0] / half_fov(0) >= off_axis[1] / half_fov(1) ? 0 : 1;
     if (off_axis[far] > half_fov(far))
         a.say(
-            "the camera stands {:.1f} degrees off axis, outside the field of view of +-{:.1f} degrees: it sees neighbouring images",
+            "the camera is {:.1f} degrees off axis, outside the field of view of +-{:.1f} degrees: it sees neighbouring elemental "
+            "images",
             off_axis[far], half_fov(far));
 
     Display matched = d;
@@ -41,12 +41,12 @@ void advise_on_eye(Advised& a) {
     const double zone = zone_of(a.theory, worse), best = zone_of(with_it, worse);
     if (zone < 0.8 * best)
         a.say(
-            "the elemental images are made for an eye {} (content.viewing_distance_mm = {:.5g}), but the camera stands "
-            "{:.5g} mm from the panel: {}; images made for that distance would be right within +-{:.1f} degrees "
-            "(--set content.viewing_distance_mm={:.5g})",
+            "the elemental images are for a viewer {} (content.viewing_distance_mm = {:.5g}), but the camera is {:.5g} mm from the "
+            "panel: {}; images for that distance would be correct within +-{:.1f} degrees (--set "
+            "content.viewing_distance_mm={:.5g})",
             std::isinf(made_for) ? "at infinity" : fmt::format("{:.5g} mm from the panel", made_for), made_for, eye,
-            zone > 0 ? fmt::format("from there the whole screen is right only within +-{:.1f} degrees", zone / 2)
-                     : "from there the whole screen is right at no angle",
+            zone > 0 ? fmt::format("from there the whole screen is correct only within +-{:.1f} degrees", zone / 2)
+                     : "from there the whole screen is correct at no angle",
             best / 2, eye);
 }
 

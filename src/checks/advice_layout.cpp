@@ -40,8 +40,8 @@ void advise_on_layout(Advised& a) {
     if (beside > beside_straight + 0.005)
         a.say(
             "the array is moved by {:.5g}, {:.5g} mm and turned by {:.5g} degrees: the elemental images of {:.3g} % of its lenses "
-            "lie beside the panel, and those lenses stay dark. Reduce both (--set 'array.offset_mm=[0, 0]' "
-            "--set array.rotation_deg=0)",
+            "lie outside the panel, and these lenses stay dark. Reduce both (--set 'array.offset_mm=[0, 0]' --set "
+            "array.rotation_deg=0)",
             d.array.offset_mm[0], d.array.offset_mm[1], d.array.rotation_deg, 100 * beside);
 
     const double pixel = d.panel.pixel_pitch_mm;
@@ -57,8 +57,8 @@ void advise_on_layout(Advised& a) {
         };
         a.say(
             "the elemental images for a viewer at {:.5g} mm are {:.4f} times as wide as the lenses, {:.5g} x {:.5g} mm together, "
-            "wider than the panel ({:.5g} x {:.5g} mm): {:.3g} % of the lenses have theirs beside it. Use fewer lenses "
-            "(--set 'array.count=[{}, {}]') or a greater content.viewing_distance_mm",
+            "wider than the panel ({:.5g} x {:.5g} mm): {:.3g} % of the lenses have theirs outside it. Use fewer lenses (--set "
+            "'array.count=[{}, {}]') or a greater content.viewing_distance_mm",
             d.content.viewing_distance_mm, scale, scale * g.array_width_mm, scale * g.array_height_mm, g.panel_width_mm,
             g.panel_height_mm, 100 * beside_straight, fitting(g.panel_width_mm, 0), fitting(g.panel_height_mm, 1));
     }

@@ -125,7 +125,7 @@ std::optional<Problem> design(FirstOrder& o) {
     d.panel.pixels = r.pixels;
     d.panel.pixel_pitch_mm = a;
     const double width = double(r.pixels[0]) * a, height = double(r.pixels[1]) * a, longest = 50 * std::max(D, height);
-    if (L < -longest) return Problem{"--depth-mm", fmt::format("is {:g}, which is as good as infinity", L)};
+    if (L < -longest) return Problem{"--depth-mm", fmt::format("is {:g}, which is practically infinity", L)};
     o.near_eye = D < nearest_sight_mm;
     std::tie(o.views, o.pitch_rule) = views(r, a, L);
     d.array.lattice = r.lattice;
@@ -137,17 +137,16 @@ std::optional<Problem> design(FirstOrder& o) {
             return Problem{option, fmt::format("is {:g}, less than two pixels of {:.4g} mm behind a lens", pitch_mm, a)};
         if (pitch_mm * fewest_lenses > side_mm)
             return Problem{option,
-                           fmt::format("makes lenses of {:.4g} mm, of which the panel's shorter side has room for less than {}",
+                           fmt::format("makes lenses of {:.4g} mm, of which fewer than {} fit along the panel's shorter side",
                                        pitch_mm, fewest_lenses)};
     }
     place_lenses(o, L);
 
     const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, z_r = D - o.eye_mm;
     if (!(g > 0 && g <= D / 4))
-        return Problem{"--fov-deg",
-                       fmt::format("is {:g}, for which lenses of {:.4g} mm, seen from {:g} mm, would have to stand more "
-                                   "than a quarter of the way to the eye",
-                                   r.fov_deg, p, D)};
+        return Problem{"--fov-deg", fmt::format("is {:g}, which would need lenses of {:.4g} mm for an eye at {:g} mm, more than a "
+                                                "quarter of the way to it from the panel",
+                                                r.fov_deg, p, D)};
     if (std::abs(L) < 2 * g) return Problem{"--depth-mm", fmt::format("is {:g}, less than twice the gap of {:.4g} mm", L, g)};
     if (r.lens == LensType::plano_convex && *d.lens.as<PlanoConvex>().aperture_radius_mm < p / 6)
         return Problem{"--fov-deg",
@@ -222,7 +221,7 @@ FirstOrder first_order(const DesignRequest& request) {
     o.request = request;
     if (const std::optional<Problem> p = design(o)) {
         const std::string others = nearest(request);
-        throw InputError(p->where, p->what + (others.empty() ? "; no change of one value alone makes it possible"
+        throw InputError(p->where, p->what + (others.empty() ? "; no change of a single value makes it possible"
                                                              : "; nearest possible: " + others));
     }
     return o;

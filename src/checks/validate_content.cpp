@@ -27,7 +27,7 @@ void check_size(const std::string& at, const SceneObject& o, Findings& findings)
 void check_image(const std::string& at, const SceneObject& o, Findings& findings) {
     if (o.image.empty() || !o.model.empty()) return;
     if (o.unit_mm) findings.add(at + "unit_mm", "is the unit of a model's file; give an image {0}height_mm or {0}width_mm", at);
-    if (o.colour) findings.add(at + "colour", "is for models; an image has its own colours");
+    if (o.colour) findings.add(at + "colour", "is for models; the colours of an image are those of its file");
     if (o.shading != Shading::file) findings.add(at + "shading", "is for models; an image is not lit");
 }
 

@@ -17,8 +17,8 @@ void check_wavelengths(const std::string& where, const Glass& glass, const Displ
             const bool apart = nm != d.panel.wavelengths_nm[std::size_t(channel)];
             if (!glass.covers(nm))
                 return findings.add(
-                    where, "{} holds from {:.6g} to {:.6g} nm, but is used at {:.6g} nm; take another glass, or {}", named(glass),
-                    glass.range_nm[0], glass.range_nm[1], nm,
+                    where, "{} is valid from {:.6g} to {:.6g} nm, but is used at {:.6g} nm; take another glass, or {}",
+                    named(glass), glass.range_nm[0], glass.range_nm[1], nm,
                     apart ? "fewer render.wavelength_samples, or less panel.primary_widths_nm" : "other panel.wavelengths_nm");
             if (!(n >= least_index && n <= greatest_index))
                 return findings.add(where, "{} has an index of {:.6g} at {:.6g} nm, allowed is {} to {}", named(glass), n, nm,

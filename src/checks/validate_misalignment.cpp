@@ -23,10 +23,10 @@ class ErrorsCheck {
                         "a moulded plate's lenses are parts of one sheet, which do not turn");
         if (d_.array.surround == Surround::plate && is_irregular(e_) && hollow())
             findings_.add("errors", "{}",
-                          "move or curve lenses that are hollow in a moulded plate, of which they are no parts; leave them out");
+                          "would move or bend concave lenses in a moulded plate, which cannot move in it; leave them out");
         if (d_.content.made_for == MadeFor::built && is_strips(d_.array) && is_wedged(e_))
             findings_.add("content.made_for", "{}",
-                          "is \"built\", but elemental images cannot know of strips' wedge; take \"description\"");
+                          "is \"built\", but elemental images cannot be calibrated for the wedge of strips; take \"description\"");
         if (d_.lens.type() == LensType::pinhole)
             refuse_each("curvature_sd", e_.curvature_sd != 0, "curvatures", has(&LensErrorBounds::curvature),
                         "a pinhole has no curvature");
@@ -96,9 +96,8 @@ class ErrorsCheck {
         if (aside > most + rounding_mm)
             findings_.add(of("errors.decenter_sd_mm", e_.decenter_sd_mm),
                           "lenses move by up to {:.6g} mm (three standard deviations and the table); at most {:.6g} mm, the "
-                          "greater of half the "
-                          "clearance and a twentieth of the pitch, as rays are traced to the lenses about their place alone: a "
-                          "decenter_sd_mm of up to {:.4g} without a table",
+                          "greater of half the clearance and a twentieth of the pitch, as rays are traced only to lenses near "
+                          "their lattice positions: a decenter_sd_mm of up to {:.4g} without a table",
                           aside, most, std::floor(1e4 * most / 3 + 1e-9) / 1e4);
         if (std::max(b.tilt_deg[0], b.tilt_deg[1]) > 30)
             findings_.add(of("errors.tilt_sd_deg", e_.tilt_sd_deg), "lenses turn by up to {:.6g} degrees; at most 30",
@@ -106,7 +105,7 @@ class ErrorsCheck {
         for (const double e : b.curvature)
             if (const std::string wrong = curved(e); e != 0 && !wrong.empty()) {
                 findings_.add(of("errors.curvature_sd", e_.curvature_sd),
-                              "a lens's curvatures are up to {:.6g} of what they should be: {}", 1 + e, wrong);
+                              "a lens's curvatures are up to {:.6g} times the nominal ones: {}", 1 + e, wrong);
                 break;
             }
     }

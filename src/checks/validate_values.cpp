@@ -72,10 +72,10 @@ void check_surround(const Display& d, Findings& findings) {
                      surfaces.size());
     else if (d.array.surround == Surround::clear && d.array.aperture == Aperture::circle &&
              surfaces[0].semi_aperture_mm != surfaces[1].semi_aperture_mm)
-        findings.add(
-            "array.surround",
-            "is \"clear\", whose bodies have a cylinder for a wall, but the semi-apertures are {} and {} mm; make them equal",
-            surfaces[0].semi_aperture_mm, surfaces[1].semi_aperture_mm);
+        findings.add("array.surround",
+                     "is \"clear\", which needs lens bodies with a cylindrical wall, but the semi-apertures are {} and {} mm; make "
+                     "them equal",
+                     surfaces[0].semi_aperture_mm, surfaces[1].semi_aperture_mm);
 }
 
 // The camera's position and direction, as far as they can be checked without the display's geometry.
@@ -87,7 +87,7 @@ void check_view(const Camera& camera, Findings& findings) {
         findings.add("camera.position_mm", "z = {} mm is {} the panel; the camera must be in front of it, at z > 0", eye[2],
                      eye[2] < 0 ? "behind" : "on");
     if (distance < shortest_mm)
-        findings.add("camera.target_mm", "is where the camera is; it must look somewhere");
+        findings.add("camera.target_mm", "is the position of the camera; give another point to look at");
     else if (up_length < shortest_mm)
         findings.add("camera.up", "is no direction, its length is {}; take [0, 1, 0]", up_length);
     // |view x up| = |view| |up| sin(angle): below a microradian single precision cannot resolve the picture's up
@@ -118,7 +118,7 @@ void check_choices(const Display& d, Findings& findings) {
     if (d.array.gap_mm && d.array.base_z_mm && findings.sound("array.base_z_mm"))
         findings.add("array.base_z_mm", "both array.gap_mm and array.base_z_mm given; leave one out");
     if (!d.array.gap_mm && !d.array.base_z_mm && findings.sound("array.gap_mm") && findings.sound("array.base_z_mm"))
-        findings.add("array.gap_mm", "is missing; give array.gap_mm, or array.base_z_mm, to say where the lenses stand");
+        findings.add("array.gap_mm", "is missing; give array.gap_mm, or array.base_z_mm, for the distance of the lenses");
     if (d.camera.frame_width_mm && d.camera.fov_deg && findings.sound("camera.fov_deg"))
         findings.add("camera.fov_deg", "both camera.fov_deg and camera.frame_width_mm given; leave one out");
     if (d.camera.focus_distance_mm && !d.camera.pupil_diameter_mm && findings.sound("camera.focus_distance_mm") &&

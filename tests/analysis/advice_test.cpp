@@ -104,8 +104,8 @@ TEST(Advice, ForEachFault) {
          [](Display& d) { d.diffuser.reset(), d.content.viewing_distance_mm = d.camera.position_mm[2] = 25; }},
         {"smaller than a panel pixel", "array.pitch_mm", tablet(), [](Display& d) { d.panel.pixel_pitch_mm = 1; }},
         {"less than two panel pixels", "panel.pixel_pitch_mm", tablet(), [](Display& d) { d.panel.pixel_pitch_mm = 0.5; }},
-        {"hardly any power (focal length inf", "lens.index", tablet(), [](Display& d) { d.lens.as<PlanoConvex>().index = 1; }},
-        {"hardly any power", "lens.index", tablet(), [](Display& d) { d.lens.as<PlanoConvex>().index = 1.04; }},
+        {"almost no power (focal length inf", "lens.index", tablet(), [](Display& d) { d.lens.as<PlanoConvex>().index = 1; }},
+        {"almost no power", "lens.index", tablet(), [](Display& d) { d.lens.as<PlanoConvex>().index = 1.04; }},
         {"stronger than 30 degrees", "diffuser.distance_mm", tablet(),
          [](Display& d) {
              d.diffuser = Diffuser{0.5, {40, 40}, {}};
@@ -117,20 +117,20 @@ TEST(Advice, ForEachFault) {
         {"nearer than eyes can focus", "content.depth_mm=-1500", near_eye(), [](Display&) {}},
         {"nearer than eyes can focus", "content.depth_mm=149", tablet(), [](Display& d) { d.content.depth_mm = 520; }},
         // The lenses of a meniscus lie before its principal planes.
-        {"stands inside the display", "camera.position_mm", tablet(),
+        {"is inside the display", "camera.position_mm", tablet(),
          [](Display& d) {
              d.lens = {SurfaceLens{{{-0.2, 0, {}, 0.48, 4, 1.5}, {-0.2, 0, {}, 0.48, 0, 1}}}, {}};
              d.array.gap_mm = 40;
              d.diffuser.reset();
              d.camera.position_mm = {0, 0, 40};
          }},
-        {"puts the eye that the elemental images are made for inside the display", "content.viewing_distance_mm=600", tablet(),
+        {"puts the viewer of the elemental images inside the display", "content.viewing_distance_mm=600", tablet(),
          [](Display& d) { d.content.viewing_distance_mm = 50; }},
-        {"made for an eye 2000 mm from the panel", "content.viewing_distance_mm=500", tablet(),
+        {"are for a viewer 2000 mm from the panel", "content.viewing_distance_mm=500", tablet(),
          [](Display& d) {
              d.camera.position_mm = {0, 0, 500}, d.content.viewing_distance_mm = 2000;
          }},
-        {"made for an eye at infinity", "content.viewing_distance_mm=600", tablet(),
+        {"are for a viewer at infinity", "content.viewing_distance_mm=600", tablet(),
          [](Display& d) { d.content.viewing_distance_mm = INFINITY; }},
         {"dark bands", "diffuser.angle_deg=[0.9", tablet(),
          [](Display& d) {

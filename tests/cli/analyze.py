@@ -71,7 +71,7 @@ checks.that(code == 0 and {"fov.json", "dof.json", "spot.json"} <= set(times("wh
 # Results of other settings never lie beside: they are refused, or replaced.
 CHANGED = f"fov {QUICK} -o whole --set array.gap_mm=5.1"
 for resume in ["", " --resume"]:
-    checks.refused(program, "other settings", "analyze " + CHANGED + resume, "whole: holds results of other settings: fov (display)", "dof (display)", "--replace")
+    checks.refused(program, "other settings", "analyze " + CHANGED + resume, "whole: contains results of other settings: fov (display)", "dof (display)", "--replace")
 (program.folder / "whole/notes.txt").write_text("mine")
 code, out, err = analyze(CHANGED + " --replace --resume")
 left = {name for name in times("whole") if name.endswith(".json") or name in ["notes.txt", "report.html"]}

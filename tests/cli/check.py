@@ -30,7 +30,7 @@ def places(text, *words):
 
 
 bad = program.must("check tiny.toml --set diffuser.angle_deg=[0.1,0.1]")
-places(bad, "tiny.toml is valid, but worth knowing:", "dark bands", "Places and sizes", "fov_deg", "Keys that differ from their defaults", "[diffuser]")
+places(bad, "tiny.toml is valid, but worth knowing:", "dark bands", "Positions and sizes", "fov_deg", "Keys that differ from their defaults", "[diffuser]")
 checks.that("emission_exponent" not in bad, "a default is printed without --all")
 checks.that(len(bad.split("fov_deg")[0].splitlines()) < 40, "too much before the physics")
 everything = program.must("check tiny.toml --all")

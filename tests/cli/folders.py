@@ -63,7 +63,7 @@ checks.refused(program, "--resume of a quilt", QUILT + " --resume", "--resume: i
 MOIRE = f"analyze moire tiny.toml -o results {QUIET}"
 for name in ("report.html", "moire.json", "moire_spectrum.csv"):
     other = mine(f"results/{name}")
-    checks.refused(program, f"a foreign {name}", MOIRE, f"results/{name}: is no result", "--replace")
+    checks.refused(program, f"a foreign {name}", MOIRE, f"results/{name}: is not a result", "--replace")
     checks.that(other.read_text() == "mine\n", f"{name} was changed")
     shutil.rmtree(folder / "results")
 mine("results/report.html"), mine("results/notes.csv")
@@ -72,7 +72,7 @@ checks.that("mine" not in (folder / "results/report.html").read_text() and (fold
 program.must(MOIRE)
 (folder / "two.toml").write_text((folder / "tiny.toml").read_text())
 mine("both/report.html")
-checks.refused(program, "a foreign report of several", f"analyze moire tiny.toml two.toml -o both {QUIET}", "both/report.html: is no result")
+checks.refused(program, "a foreign report of several", f"analyze moire tiny.toml two.toml -o both {QUIET}", "both/report.html: is not a result")
 
 EXPORT = f"export pov tiny.toml --pattern white --set diffuser=none -o scene {QUIET}"
 mine("scene/README.txt")
@@ -84,7 +84,7 @@ program.must(EXPORT + " --set array.gap_mm=6 --replace")
 
 (folder / "walk").mkdir()
 mine("walk/0000.png")
-checks.refused(program, "a foreign frame", WRITERS["path"].replace("held", "walk"), "walk: holds 1 picture", "0000.png", "--replace")
+checks.refused(program, "a foreign frame", WRITERS["path"].replace("held", "walk"), "walk: contains 1 picture", "0000.png", "--replace")
 
 # Views that were interrupted. Their order is that of their numbers.
 LONG = VIEWS.replace("48x32", "192x128") + " --samples 64 --threads 1"
@@ -107,12 +107,12 @@ program.must(LONG + " -o whole")
 for name in ("view_0000.png", "view_0015.png"):
     same = program.run(f"compare stopped/{name} whole/{name} --json")
     checks.that(same[0] == 0 and '"rmse": 0.0' in same[1], f"{name} differs after --resume: {same}")
-checks.refused(program, "finished views again", LONG + " -o stopped", "holds 16 of 16 pictures")
+checks.refused(program, "finished views again", LONG + " -o stopped", "contains 16 of 16 pictures")
 program.must(VIEWS + " -o stopped --replace")
 checks.that(len(list((folder / "stopped").iterdir())) == 17, "--replace left other files")
 checks.refused(program, "views as .npy cannot be gone on with", VIEWS + " -o stopped --views-as npy --resume", "--resume: a .npy does not record")
 mine("words/notes.txt")
-checks.refused(program, "a folder with other files", VIEWS + " -o words", "words: holds other files")
+checks.refused(program, "a folder with other files", VIEWS + " -o words", "words: contains other files")
 
 # What was being written when a process was killed: gone when that process is, and it alone.
 gone = subprocess.Popen(["true"])

@@ -57,7 +57,7 @@ for name, arguments, words in [
     ("both", "check tiny.toml --set lens.glass=PMMA", "both lens.index and lens.glass given; leave one out"),
     ("neither", "check tiny.toml --set lens.index=none", "give lens.index, or lens.glass"),
     ("out of range", "check tiny.toml --set lens.index=none lens.glass=PMMA panel.wavelengths_nm=[611,549,405]",
-     '"PMMA" holds from 420 to 1620 nm, but is used at 405 nm'),
+     '"PMMA" is valid from 420 to 1620 nm, but is used at 405 nm'),
     ("samples without widths", "check tiny.toml --set render.wavelength_samples=3", "panel.primary_widths_nm is missing"),
 ]:
     (program.folder / "m.svg").write_text(maker.read_text())

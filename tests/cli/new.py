@@ -54,7 +54,7 @@ for options, doubt in DOUBTFUL:
     warnings = json.loads(program.must("check doubtful.toml --json"))["warnings"]
     checks.that(all(w in said for w in warnings), f"{options}: new does not say {warnings}, but {said!r}")
     checks.that(doubt in said if doubt else not warnings, f"{options}: {said!r}")
-    if field := re.search(r"--fov-deg ([0-9.]+), there would be nothing", said):
+    if field := re.search(r"--fov-deg ([0-9.]+), would give no advice", said):
         kept = re.sub(r" --fov-deg \S+", "", options)
         program.must(f"new {kept} --fov-deg {field[1]} -o narrower.toml --force")
         warnings = json.loads(program.must("check narrower.toml --json"))["warnings"]
@@ -134,7 +134,7 @@ for name, arguments, *words in [
     ("unknown lens", f"new {TABLET} --lens fresnel -o x.toml", "--lens", "plano_convex, ideal"),
     ("both pitches", f"new {TABLET} --views 20 --pitch-mm 1 -o x.toml", "--views, --pitch-mm: both decide"),
     ("a pitch of a pixel", f"new {TABLET} --pitch-mm 0.1 -o x.toml", "--pitch-mm: is 0.1, less than two pixels"),
-    ("too few lenses", f"new {TABLET} --views 400 -o x.toml", "--views: makes lenses of", "less than 10"),
+    ("too few lenses", f"new {TABLET} --views 400 -o x.toml", "--views: makes lenses of", "fewer than 10"),
     ("a slant of squares", f"new {TABLET} --slant-deg 9 -o x.toml", "--slant-deg: is for --lattice strips"),
     ("an unknown lattice", f"new {TABLET} --lattice triangle -o x.toml", "--lattice", "square, hexagon, strips"),
     ("two gaps", f"new {TABLET} --lattice strips --sheet-mm 2 -o x.toml", "--fov-deg, --sheet-mm: both decide the gap"),

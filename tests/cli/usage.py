@@ -40,7 +40,7 @@ for name, arguments, words in [
     ("a negative count", "render tiny.toml --samples -1 -o out.png", "give a whole number from 1 to 16777216"),
     ("a negative seed", "render tiny.toml --seed -1 -o out.png", "give a whole number, 0 or more"),
     ("a decimal comma", "eia tiny.toml --depth-mm 20,5 -o out.png", "give 20.5"),
-    ("a unit", "eia tiny.toml --depth-mm 20mm -o out.png", "in the unit of the option's name; give 20"),
+    ("a unit", "eia tiny.toml --depth-mm 20mm -o out.png", "give the number without a unit: 20"),
     ("control characters", ["check", "\x1b[31mred\n.toml"], "\\u001b[31mred\\u000a.toml"),
 ]:
     checks.refused(program, name, arguments, words)

@@ -65,7 +65,7 @@ code, out, err = on("memory_mb=50", f"{SHOWN} --size 3840x2160 --device cuda -o 
 found = re.search(sizes + "; use --device cpu, another GPU, a smaller camera.resolution or --crop", err)
 checks.that(code == 2 and found and int(found[2]) <= 50 < int(found[1]), f"too small: {code} {err}")
 code, out, err = on("memory_mb=50", f"{SHOWN} --size 3840x2160 --device auto --json -o auto.npy")
-checks.that(code == 0 and json.loads(out)["device"] == "cpu" and re.search(f"warning: {sizes}; the CPU went on", err), f"too small: {out} {err}")
+checks.that(code == 0 and json.loads(out)["device"] == "cpu" and re.search(f"warning: {sizes}; the CPU continued", err), f"too small: {out} {err}")
 
 # A field of view's photographs are compared where views are rendered; the GPU fails in the midst of it, or not.
 FOV = "analyze fov tiny.toml --model pyramid.obj --progress none --set camera.resolution=[48,27] render.estimator='point'"
@@ -78,7 +78,7 @@ def measured(name):
 program.must(f"{FOV} -o fov_cpu")
 for stand_in, warned in {"gpus=1": False, "fail=cudaLaunchKernel:200": True}.items():
     code, out, err = on(stand_in, f"{FOV} --device auto -o fov_gpu")
-    checks.that(code == 0 and measured("fov_gpu") == measured("fov_cpu") and ("the CPU went on" in err) == warned, f"{stand_in}: fov {err}")
+    checks.that(code == 0 and measured("fov_gpu") == measured("fov_cpu") and ("the CPU continued" in err) == warned, f"{stand_in}: fov {err}")
 
 # Calls fail, of each function the first one, a later one, and so on until there are no more.
 program.must(f"{MOVING} -o frames_cpu")
@@ -92,7 +92,7 @@ for function in ("cudaMallocAsync cudaMemcpyAsync cudaLaunchKernel cudaStreamSyn
         if not err:
             break
         reason = "the GPU failed while"
-        checks.that(re.fullmatch(f"lfdsim: warning: cuda:0, stand-in 0: {reason} .*; the CPU went on\n", err), f"{function}, {call}: {err}")
+        checks.that(re.fullmatch(f"lfdsim: warning: cuda:0, stand-in 0: {reason} .*; the CPU continued\n", err), f"{function}, {call}: {err}")
         code, out, err = on(f"fail={function}:{call}", f"{SHOWN} --device cuda -o one.npy")
         checks.that(code == 0 and not err or code == 1 and reason in err, f"{function}, {call}: {code} {err}")
         call = call * 2 + 1

@@ -142,7 +142,7 @@ TEST(BadDescriptions, AllFaultsTogetherInTheOrderOfTheFile) {
                      "d:3:10: panel.pixels: is a string; give a list of 2 integers\n"
                      "d:4:1: lens.focal_length_mm: is missing\n"
                      "d:6:1: lens.focal_length: is unknown; did you mean focal_length_mm?\n"
-                     "d:7:1: array.gap_mm: is missing; give array.gap_mm, or array.base_z_mm, to say where the lenses stand\n"
+                     "d:7:1: array.gap_mm: is missing; give array.gap_mm, or array.base_z_mm, for the distance of the lenses\n"
                      "d:8:12: array.pitch_mm: is nan, allowed is 1e-6 to 1e6\n"
                      "d:10:11: render.samples: is 0, allowed is 1 to 16777216");
     }

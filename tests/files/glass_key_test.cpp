@@ -92,7 +92,7 @@ TEST(GlassKey, MistakesAreToldOnce) {
              {"{ name = \"MINE\" }", "has no formula"},
              {"{ name = 5, nd = 1.5, vd = 60 }", "name is an integer; give a string"},
              {"{ nd = 1.5, vd = 60, range_nm = [700, 400] }", "range_nm is not two wavelengths, the shorter first"},
-             {"{ nd = 1.5, vd = 60, range_nm = [400, 600] }", "the glass holds from 400 to 600 nm, but is used at 611.4 nm"},
+             {"{ nd = 1.5, vd = 60, range_nm = [400, 600] }", "the glass is valid from 400 to 600 nm, but is used at 611.4 nm"},
              {"{ sellmeier = [1, 0.3, 0, 0, 0, 0] }", "the glass has an index of"},
              {"{ cauchy = [1.5, \"x\", 0] }", "cauchy element 1 is a string"},
              {"{ cauchy = [nan, 0, 0] }", "has an index of nan"},

@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"content.object.0.width_mm", "is not the only size", [](Display& d) { d.content.objects = {a_model()}, d.content.objects[0].width_mm = 3; }},
     Case{"content.object.0.unit_mm", "is not the only size", [](Display& d) { d.content.objects = {a_model()}, d.content.objects[0].unit_mm = 3; }},
     Case{"content.object.0.unit_mm", "give an image content.object.0.height_mm", [](Display& d) { d.content.objects = {an_image()}, d.content.objects[0].height_mm.reset(), d.content.objects[0].unit_mm = 3; }},
-    Case{"content.object.0.colour", "an image has its own colours", [](Display& d) { d.content.objects = {an_image()}, d.content.objects[0].colour = Vec3d{}; }},
+    Case{"content.object.0.colour", "the colours of an image are those of its file", [](Display& d) { d.content.objects = {an_image()}, d.content.objects[0].colour = Vec3d{}; }},
     Case{"content.object.0.shading", "an image is not lit", [](Display& d) { d.content.objects = {an_image()}, d.content.objects[0].shading = Shading::flat; }},
     Case{"content.object", "has more than the 64 objects", [](Display& d) { d.content.objects.assign(65, a_model()); }},
     Case{"content.model", "make the model an object", [](Display& d) { d.content.model = "a.obj", d.content.objects = {a_model()}; }},
@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
     Case{"camera.up", "along the line of sight", [](Display& d) { d.camera.up = {0, 0, -3}; }},
     Case{"camera.up", "no direction", [](Display& d) { d.camera.up = {0, 0, 0}; }},
     Case{"camera.up[1]", "is nan", [](Display& d) { d.camera.up[1] = nan; }},
-    Case{"camera.target_mm", "where the camera is", [](Display& d) { d.camera.target_mm = d.camera.position_mm; }},
+    Case{"camera.target_mm", "is the position of the camera", [](Display& d) { d.camera.target_mm = d.camera.position_mm; }},
     Case{"camera.fov_deg", "both", [](Display& d) { d.camera.fov_deg = 20; d.camera.frame_width_mm = 500; }},
     Case{"camera.fov_deg", "is 180", [](Display& d) { d.camera.fov_deg = 180; }},
     Case{"camera.fov_deg", "allowed is 1e-6 to 1e6", [](Display& d) { d.camera.fov_deg = 179.999; }},
@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(Errors, Fault, testing::Values(
     Case{"errors.bow_mm", "into the panel", [](Display& d) { d.errors.bow_mm = -14; }},
     Case{"errors.decenter_sd_mm", "at most 0.6 mm", [](Display& d) { d.errors.decenter_sd_mm = 0.201; }},
     Case{"errors.curvature_sd", "would not reach the rim", [](Display& d) { d.errors.curvature_sd = 0.08; }},
-    Case{"content.made_for", "strips' wedge", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.errors.wedge_deg = {0, 0.1}; d.content.made_for = MadeFor::built; }}));
+    Case{"content.made_for", "wedge of strips", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.errors.wedge_deg = {0, 0.1}; d.content.made_for = MadeFor::built; }}));
 TEST(Validate, ErrorsThatCanBe) {
     Display glued = example_glued(), plate = example_plate();
     glued.errors.shift_mm = {0.3, -0.2};
@@ -274,9 +274,9 @@ INSTANTIATE_TEST_SUITE_P(Glass, Fault, testing::Values(
     Case{"lens.glass", "has an index of 0.9", [](Display& d) { set_glass(d, {"", Formula::cauchy, {0.9, 0, 0}}); }},
     Case{"lens.glass", "at 464.2 nm, allowed is 1 to 4", [](Display& d) { set_glass(d, {"", Formula::cauchy, {1.5, 0.55, 0}}); }},
     Case{"lens.glass", "has an index of nan", [](Display& d) { set_glass(d, {"", Formula::cauchy, {nan, 0, 0}}); }},
-    Case{"lens.glass", "\"PMMA\" holds from 420 to 1620 nm, but is used at 405 nm; take another glass, or other panel.wavelengths_nm",
+    Case{"lens.glass", "\"PMMA\" is valid from 420 to 1620 nm, but is used at 405 nm; take another glass, or other panel.wavelengths_nm",
          [](Display& d) { set_glass(d, glass("PMMA")); d.panel.wavelengths_nm[2] = 405; }},
-    Case{"lens.glass", "\"PMMA\" holds from 420 to 1620 nm, but is used at 41", [](Display& d) { set_glass(d, glass("PMMA")); d.panel.primary_widths_nm = {25, 25, 25}; d.render.wavelength_samples = 10; }},
+    Case{"lens.glass", "\"PMMA\" is valid from 420 to 1620 nm, but is used at 41", [](Display& d) { set_glass(d, glass("PMMA")); d.panel.primary_widths_nm = {25, 25, 25}; d.render.wavelength_samples = 10; }},
     Case{"panel.wavelengths_nm[1]", "is nan", [](Display& d) { set_glass(d, glass("PMMA")); d.panel.wavelengths_nm[1] = nan; }},
     Case{"panel.primary_widths_nm[0]", "is 0, allowed is more than 0", [](Display& d) { d.panel.primary_widths_nm = {0, 20, 20}; }},
     Case{"render.wavelength_samples", "is 3, but panel.primary_widths_nm is missing", [](Display& d) { d.render.wavelength_samples = 3; }},

@@ -40,7 +40,7 @@ class Results(TinyTest):
         )
         result = lfdsim.analyze(self.display, "fov", angles_deg=np.arange(-30, 31, 5), viewing_distance_mm=500, pickup="traced")
         result.save("theirs")  # which refuses results of other settings
-        with self.assertRaisesRegex(lfdsim.InputError, "theirs: holds results of other settings: fov"):
+        with self.assertRaisesRegex(lfdsim.InputError, "theirs: contains results of other settings: fov"):
             lfdsim.analyze(self.display, "spot", eye_distance_mm=60).save("theirs")
         with self.assertRaisesRegex(TypeError, "replace is a str; give True or False"):
             result.save("theirs", replace="no")

@@ -41,7 +41,7 @@ struct BenchArguments {
     WorkOptions work{command};
     List chosen =
         command.list("GROUP", "", fmt::format("What to measure; default: all. Groups: {}", fmt::join(group_names(), ", ")));
-    Option runs = command.option("--runs", "N", "Runs of each case, whose median is printed; default 5");
+    Option runs = command.option("--runs", "N", "Runs of each case, of which the median is printed; default 5");
     Flag quick = command.flag("--quick", "One run of each case, with less work");
     Option kernel = command.option("--kernel", "scalar|baseline|avx2|avx512",
                                    "Instruction set; default: environment variable LFDSIM_KERNEL, else the best available");

@@ -138,8 +138,7 @@ void report(const View& view, const Reference& reference, const std::vector<Spen
     const auto wanted = std::find_if(points.begin(), points.end(),
                                      [](const Spent& p) { return p.estimator == &papers && p.samples == papers_samples; });
     Json rows = Json::array();
-    std::string text =
-        fmt::format("{} samples a pixel as reference, whose own error is {:.6f}\n", reference.samples, reference.rmse);
+    std::string text = fmt::format("reference: {} samples a pixel, error {:.6f}\n", reference.samples, reference.rmse);
     for (const Spent& p : points) {
         rows.push_back({{"estimator", p.estimator->name},
                         {"samples", p.samples},

@@ -47,7 +47,7 @@ double rmse(const Image& a, const Image& b) {
 }  // namespace
 
 void bench_gpu(Bench& bench) {
-    bench.heading("GPU: plano-convex lenses, opaque, Schlick, diffuser, 3840 x 2160; its own clock, and with transfers");
+    bench.heading("GPU: plano-convex lenses, opaque, Schlick, diffuser, 3840 x 2160; time on the GPU, and with transfers");
     const cuda::GpuSearch& found = found_gpus();
     if (!found.missing.empty()) return bench.not_measured("gpu", "all", found.missing);
     const Texels panel = noise_panel(bench_display());

@@ -38,10 +38,10 @@ struct AnalyzeArguments {
     DeviceOption device{command};
     WorkOptions work{command};
     List others =
-        command.list("OTHER.toml", "", "More displays: each is measured in its own folder and shown side by side with the first");
+        command.list("OTHER.toml", "", "More displays: each is measured in a separate folder and compared with the first");
     Option compare = command.option("--compare", "KEY=VALUE,VALUE",
-                                    "Measures the display once for each value of a key, side by side: array.gap_mm=3.2,3.3; "
-                                    "pickup stands for content.pickup=nodal,traced");
+                                    "Measures the display once for each value of a key, side by side: array.gap_mm=3.2,3.3; pickup "
+                                    "is short for content.pickup=nodal,traced");
     Option output = command.option("-o,--output", "DIR REQUIRED",  // told with what else is wrong
                                    "Folder for the results and report.html; created if missing");
     Flag resume = command.flag("--resume", "Skip what an earlier run with the same settings has finished there");
@@ -51,7 +51,7 @@ struct AnalyzeArguments {
                                    "Views of the field of view; default: 61 or more, beyond the expected edges");
     Option depths =
         command.option("--depths-mm", "FROM,TO,STEP",
-                       "Depths of the model for the depth of field; default: 31 over what theory calls sharp, through 0");
+                       "Depths of the model for the depth of field; default: 31 over the depth of field by theory, including 0");
     Option viewing_distance =
         command.option("--viewing-distance-mm", "D", "Distance of the eyes from the panel; default the camera's");
     Option eye_distance = command.option("--eye-distance-mm", "E", "Distance between the two eyes; default 65");

@@ -64,7 +64,7 @@ void add_line(std::string& text, std::string line) {
 
 /// A line for each figure, a column for each channel.
 std::string table_of(const std::vector<ChannelTheory>& colours) {
-    std::string text = "\nTheory by colour, where glass disperses; all things stand where green light has them\n";
+    std::string text = "\nTheory by colour (dispersive glass); positions are those for green\n";
     const auto row = [&](const std::string& name, const char* meaning, const auto& value) {
         std::string line = fmt::format("  {:<28}", name);
         for (const ChannelTheory& c : colours) line += fmt::format(" {:<12}", value(c));
@@ -74,7 +74,7 @@ std::string table_of(const std::vector<ChannelTheory>& colours) {
         row(name, meaning, [&](const ChannelTheory& c) { return number_text(c.*member); });
     };
     row("", "", [](const ChannelTheory& c) { return c.name; });
-    figure("wavelength_nm", "at which the channel shines", &ChannelTheory::wavelength_nm);
+    figure("wavelength_nm", "wavelength of the channel", &ChannelTheory::wavelength_nm);
     for (std::size_t k = 0; k < colours.front().indices.size(); ++k)
         row(colours.front().indices[k].first, "n, index of the glass",
             [&](const ChannelTheory& c) { return number_text(c.indices[k].second); });
@@ -95,9 +95,9 @@ void run(const CheckArguments& args) {
 
     // What is wrong comes first, then what follows from the description, and last what it says.
     std::string text = printable(args.display.path()) + " is valid", table;
-    text += warnings.empty() ? "; views, sharpness, colours, eye and scene leave nothing to say.\n" : ", but worth knowing:\n";
+    text += warnings.empty() ? "; no advice on views, sharpness, colours, eye and scene.\n" : ", but worth knowing:\n";
     for (const std::string& warning : warnings) text += "  - " + warning + "\n";
-    text += "\nPlaces and sizes (z from the panel)\n";
+    text += "\nPositions and sizes (z from the panel)\n";
     for (const Figure& f : figures(display, geometry)) add_line(text, table_of(f));
     text += "\nParaxial theory (depths from the lenses, negative behind them)\n";
     for (const Figure& f : figures(display, geometry, paraxial))

@@ -43,9 +43,9 @@ struct ExportArguments {
         "--triangles", "N",
         fmt::format("Triangles per lens, 100 or more; default: true surfaces for pov, {} for the others", default_triangles));
     Option channel = command.option(
-        "--channel", "r|g|b", "A scene of red, green or blue alone, with the indices of its light; needed where glass disperses");
-    Option normals =
-        command.option("--normals", "flat|smooth", "The triangles' own, or the true surface's, interpolated; default flat");
+        "--channel", "r|g|b", "Scene of one channel, with the refractive indices at its wavelength; needed for dispersive glass");
+    Option normals = command.option("--normals", "flat|smooth",
+                                    "Normals: those of the triangles, or the true surface's, interpolated; default flat");
     Flag replace = command.flag(
         "--replace",
         "Write over files in the folder that are not of this display's scene; those of an earlier one by other names stay");

@@ -30,15 +30,14 @@ struct ImportArguments {
                       .required();
     Flag flip = command.flag("--flip", "Turn the lens over: the side of the file's object faces the panel, not that of its image");
     Option scale = command.option("--scale", "S", "Factor for all lengths of the lens; default 1");
-    Option gap = command.option(
-        "--gap-mm", "G", "Panel to the lens's principal plane; default: the panel stands where the image is, or by the view cone");
+    Option gap = command.option("--gap-mm", "G",
+                                "Panel to the lens's principal plane; default: from the image in the file, or from the view cone");
     Option pitch = command.option("--pitch-mm", "P", "From lens to lens; default: as wide as the lens");
     Option semi_aperture =
         command.option("--semi-aperture-mm", "R", "Of surfaces that have none in the file; default: what the file's beam needs");
     List glasses = command
                        .list("--glass", "NAME=OTHER|ND|ND,VD",
-                             "What to take for a glass of the file: one of another name, its index n_d, or that and its Abbe "
-                             "number V_d")
+                             "Replacement for a glass of the file: another name, an index n_d, or n_d and the Abbe number V_d")
                        .one_each();
     List catalogues = command.list("--catalogue", "FILE.agf", "Glass catalogue, looked up before the glasses that ship").one_each();
     Option panel_inch = command.option("--panel-inch", "I", "Diagonal of the panel; default 24");
@@ -46,10 +45,9 @@ struct ImportArguments {
     Option distance =
         command.option("--distance-mm", "D",
                        "Distance from the panel to the eye; default 600, of a calibration where the panel is 14 degrees high");
-    Option index = command.option(
-        "--index", "N",
-        "For a calibration, which says nothing of the lenses: cylinders of this index in a sheet on the panel; default: lenses "
-        "without aberrations, in air");
+    Option index = command.option("--index", "N",
+                                  "For a calibration, which does not describe the lenses: cylinders of this index in a sheet on "
+                                  "the panel; default: lenses without aberrations, in air");
 };
 
 /// A length or factor, where one is given.
@@ -86,7 +84,7 @@ void check_unused(const Command& command, bool calibrated, Faults& faults) {
     const auto refuse = [&](const char* option, const char* why) {
         if (command.given(option)) faults.of([&] { throw InputError(option, why); });
     };
-    if (!calibrated) return refuse("--index", "is for a calibration; this lens has its own glass (--glass)");
+    if (!calibrated) return refuse("--index", "is for a calibration; a lens has the glass of its file (--glass replaces it)");
     for (const char* option : of_lenses) refuse(option, "is for a lens of a design program, not for a calibration; leave it out");
 }
 

@@ -107,7 +107,7 @@ std::string narrower(Request request, Design (*design)(const Request&), double f
             Design made = design(request);
             made.display.content.model = built_in_spheres;
             if (told_by_check(made.display).empty())
-                return fmt::format("  Of a narrower field of view, --fov-deg {:g}, there would be nothing to say.\n", fov);
+                return fmt::format("  A narrower field of view, --fov-deg {:g}, would give no advice.\n", fov);
         } catch (const InputError&) {
             break;  // of a narrower field lenses stand farther from the panel
         }

@@ -72,7 +72,7 @@ CommandSpec study_command() {
 
 CommandSpec tolerance_command() {
     return {.name = "tolerance",
-            .summary = "Draws a display's errors: percentiles of what is measured, and a budget (Python package)",
+            .summary = "Draws a display's errors at random: percentiles of measures and an error budget (Python package)",
             .run = run_in_python};
 }
 

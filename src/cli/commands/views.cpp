@@ -80,16 +80,18 @@ Target target_of(const ViewsArguments& args, const Display& display) {
         faults.of([&] {
             const std::optional<QuiltName> name = quilt_name(path);
             if (!name)
-                throw InputError(path.string(), fmt::format("a quilt's name says what is in it: columns, rows and the aspect of a "
-                                                            "view, as in {}_qs8x6a0.75{}; or give a folder",
-                                                            path.stem().string(), kind));
+                throw InputError(
+                    path.string(),
+                    fmt::format(
+                        "a quilt's name gives columns, rows and the aspect of a view, as in {}_qs8x6a0.75{}; or give a folder",
+                        path.stem().string(), kind));
             target.name = *name;
             target.columns = name->columns * name->rows;
             target.rows = 1;
         });
         for (const auto& [option, given] :
              {std::pair("--grid", !args.count.empty()), {"--depth", bool(args.depth)}, {"--resume", bool(args.resume)}})
-            if (given) faults.of([o = option] { throw InputError(o, "is for views in a folder; a quilt's name says its own"); });
+            if (given) faults.of([o = option] { throw InputError(o, "is for views in a folder, not for a quilt"); });
         faults.of([&] { check_output(path); });
         faults.of([&] { args.output.check_bits(path); });
     } else {
@@ -164,9 +166,8 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
     const double outermost = grid.camera(grid.columns - 1, 0)[0];
     if (args.of_display() && grid.columns > 1 && outermost > 0.499 * place.zone_width_mm)
         spdlog::warn(
-            "the outermost cameras stand {:.4g} mm aside, at the edge of the zone of {:.4g} mm or beyond it, where the display's "
-            "views "
-            "flip; --cone bins puts them half a step further in, --view-cone-deg chooses another angle",
+            "the outermost cameras are {:.4g} mm off axis, at the edge of the zone of {:.4g} mm or beyond it, where the display's "
+            "views flip; --cone bins puts them half a step further in, --view-cone-deg chooses another angle",
             outermost, place.zone_width_mm);
     return grid;
 }
@@ -301,7 +302,7 @@ void run(const ViewsArguments& args) {
             if (!args.of_display() && args.command.given(option))
                 throw InputError(option, "is for what the display shows; add --of display");
         if (args.of_display() && args.depth)
-            throw InputError("--depth", "is of the content alone; what a display shows has no depth");
+            throw InputError("--depth", "is for views of the content; views of the display have no depth map");
     });
     faults.of([&] { target = target_of(args, display); });
     faults.report();

@@ -11,9 +11,9 @@ namespace lfdsim::cli {
 class ExposureOption {
   public:
     explicit ExposureOption(Command command)
-        : exposure_(command.option(
-              "--exposure", "E|auto",
-              "Multiplies the picture's light by E; auto: so that a white panel is 1 in the mean over the screen")) {}
+        : exposure_(
+              command.option("--exposure", "E|auto",
+                             "Multiplies the picture's light by E; auto: scales the mean of a white panel over the screen to 1")) {}
 
     /// Throws InputError for anything but a positive number or "auto".
     void check() const;

@@ -37,7 +37,8 @@ ViewsWish GridOptions::read() const {
         wish.baseline_mm = {xy.front(), xy.back()};
     });
     if (wish.baseline_mm && wish.cone_deg)
-        faults.of([] { throw InputError("--baseline-mm, --view-cone-deg", "both say where the cameras stand; give one of them"); });
+        faults.of(
+            [] { throw InputError("--baseline-mm, --view-cone-deg", "both determine the cameras' positions; give one of them"); });
     faults.report();
     return wish;
 }
@@ -94,11 +95,14 @@ ViewsOption::Made ViewsOption::make(const Display& display, const Geometry& geom
     if (!views) end_interrupted("");
     for (const std::string& note : views->notes) spdlog::warn("{}: {}", source_.name, note);
     if (views->doubt.against_depth)
-        spdlog::warn("{}: what its depth map calls near moves from view to view as if far: the views are pseudoscopic{}",
-                     source_.name, flip_ ? "; leave out --flip-views" : "; --flip-views reverses them");
+        spdlog::warn(
+            "{}: points that are near in its depth map move from view to view as far ones do: the views are pseudoscopic{}",
+            source_.name, flip_ ? "; leave out --flip-views" : "; --flip-views reverses them");
     else if (views->doubt.axes_disagree)
-        spdlog::warn("{}: what is near from column to column is far from row to row: rows or columns are in reversed order",
-                     source_.name);
+        spdlog::warn(
+            "{}: points that are near by their motion from column to column are far by that from row to row: rows or columns are "
+            "in reversed order",
+            source_.name);
     const ViewGrid& grid = views->field.grid();
     Made made{elemental_images(display, geometry, views->field, threads, progress), "", grid_json(grid)};
     const double rays = double(std::max<std::int64_t>(made.field.picture.rays, 1));

@@ -25,7 +25,7 @@ class GridOptions {
     Option depth_ = command_.option("--focus-depth-mm", "Z", "Its depth in front of the lenses' vertex plane");
     Option distance_ = command_.option("--camera-distance-mm", "D", "From the views' cameras to their focus");
     Option baseline_ = command_.option("--baseline-mm", "B|BX,BY", "From camera to camera: along x and y, or the same along both");
-    Option cone_ = command_.option("--view-cone-deg", "A", "Angle over which the cameras of a row stand, at equal angles");
+    Option cone_ = command_.option("--view-cone-deg", "A", "Angle that the cameras of a row span, in equal steps");
     Option cameras_ = command_.option(
         "--cone", "ends|bins",
         "How n cameras divide that angle A: the first and last at its ends, camera i at (i/(n-1) - 1/2) A, as the makers of quilts "

@@ -27,11 +27,12 @@ class LensMeshOptions {
 
     Command command_;
     Option triangles_ = command_.option("--lens-mesh", "TRIANGLES",
-                                        "Replace each lens by about so many triangles, as other renderers do (docs/meshed.md); "
-                                        "point samples, surround opaque");
-    Option normals_ =
-        command_.option("--lens-normals", "flat|smooth", "The triangles' own, or the true surface's, interpolated; default flat")
-            .initially("flat");
+                                        "Replace each lens by about this number of triangles, as other renderers do "
+                                        "(docs/meshed.md); point samples, surround opaque");
+    Option normals_ = command_
+                          .option("--lens-normals", "flat|smooth",
+                                  "Normals: those of the triangles, or the true surface's, interpolated; default flat")
+                          .initially("flat");
 };
 
 }  // namespace lfdsim::cli

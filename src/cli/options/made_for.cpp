@@ -113,7 +113,7 @@ void warn_if_other_camera(const std::filesystem::path& a, const std::filesystem:
     const std::optional<IntendedDisplay> first = made_for(read_metadata(a)), second = made_for(read_metadata(b));
     if (!first || !second) return;
     const std::string what = differences(camera_of(*first), camera_of(*second));
-    if (!what.empty()) spdlog::warn("{} and {}: were seen by different cameras: {}", a.string(), b.string(), what);
+    if (!what.empty()) spdlog::warn("{} and {}: show the display from different cameras: {}", a.string(), b.string(), what);
 }
 
 }  // namespace lfdsim::cli

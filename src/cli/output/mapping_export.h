@@ -24,8 +24,8 @@ class MappingOption {
 
     Command command_;
     Option mapping_ = command_.option("--mapping", "FILE",
-                                      "Also writes where the lens sends each panel point's light: .npy or .exr, and beside it a "
-                                      ".json that says what is what and an .svg of the distortion");
+                                      "Also writes the lens's mapping of panel points to rays: .npy or .exr, and beside it a .json "
+                                      "that describes it and an .svg of the distortion");
     Flag replace_ = command_.flag("--replace", "Write over a .json and .svg of other origin beside the file of --mapping");
 };
 

@@ -68,10 +68,9 @@ void NumberedPictures::keep_apart() const {
     }
     std::sort(others.begin(), others.end());
     if (!others.empty() && !replace)
-        throw InputError(folder.string(),
-                         fmt::format("holds {} made by another command or from other files, such as {}; give another "
-                                     "folder, or --replace to remove them",
-                                     counted(others.size(), "picture"), others.front().filename().string()));
+        throw InputError(folder.string(), fmt::format("contains {} made by another command or from other files, such as {}; give "
+                                                      "another folder, or --replace to remove them",
+                                                      counted(others.size(), "picture"), others.front().filename().string()));
     for (const fs::path& path : others)
         if (maker_of(path) == Maker::other)
             throw InputError(path.string(), fmt::format("is a picture not made by lfdsim; give another folder for {}s", of_what));

@@ -78,7 +78,7 @@ void OutputOptions::check_bits(const std::filesystem::path& name) const {
     Faults faults;
     faults.of([&] { bits_.word(); });
     if (const std::string kind = name.extension(); kind == ".exr" || kind == ".npy")
-        faults.of([&] { throw InputError("--bits", fmt::format("is only for .png; {} holds 32-bit floats", kind)); });
+        faults.of([&] { throw InputError("--bits", fmt::format("is only for .png; {} stores 32-bit floats", kind)); });
     faults.report();
 }
 
@@ -105,13 +105,13 @@ void end_interrupted(const std::string& saved) {
         spdlog::warn("interrupted; nothing was complete, so nothing was written");
     else
         spdlog::warn(
-            "interrupted; {} holds what was complete, the rest is black{}", saved,
+            "interrupted; {} contains the completed part, the rest is black{}", saved,
             keeps_metadata(saved) ? ", and is marked incomplete" : "; a file of this kind cannot say that it is incomplete");
     throw Interrupted{};
 }
 
 void end_interrupted(const std::filesystem::path& folder, const std::string& finished, bool resumable) {
-    spdlog::warn("interrupted; {} holds {}{}", folder.string(), finished,
+    spdlog::warn("interrupted; {} contains {}{}", folder.string(), finished,
                  resumable ? "; the same command with --resume continues it" : "");
     throw Interrupted{};
 }

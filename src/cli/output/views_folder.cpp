@@ -51,13 +51,13 @@ void ViewsFolder::check() const {
     if (!fs::is_directory(folder, none) || fs::is_empty(folder, none)) return;
     if (!pictures_.resume && !pictures_.replace) {
         if (const std::int64_t made = pictures_.count_finished(); made > 0)
-            throw InputError(folder.string(),
-                             fmt::format("holds {} of {} that the same command makes; --resume goes on there, --replace "
-                                         "makes all again",
-                                         made, counted(pictures_.count, "picture")));
+            throw InputError(
+                folder.string(),
+                fmt::format("contains {} of {} that the same command makes; --resume continues there, --replace makes all again",
+                            made, counted(pictures_.count, "picture")));
         pictures_.keep_apart();
         throw InputError(folder.string(),
-                         "holds other files; give an empty folder for the views, or --replace to write among them");
+                         "contains other files; give an empty folder for the views, or --replace to write among them");
     }
     if (const fs::path toml = toml_file(); !pictures_.replace && fs::exists(fs::symlink_status(toml, none)) && !holds(toml, toml_))
         throw InputError(toml.string(), "is of other views; give another folder, or --replace to write over it");

@@ -41,7 +41,7 @@ std::string number_hint(std::string_view text) {
         return fmt::format("the decimal sign is a point; give {}.{}", number, rest.substr(1));
     const std::string_view unit = rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
     if (!unit.empty() && (std::isalpha(static_cast<unsigned char>(unit[0])) || unit[0] == '%' || (unit[0] & 0x80)))
-        return fmt::format("a number alone is needed, in the unit of the option's name; give {}", number);
+        return fmt::format("give the number without a unit: {}", number);
     return "give a finite number such as 12.5";
 }
 

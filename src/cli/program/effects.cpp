@@ -18,9 +18,9 @@ struct Rule {
     std::string_view but_for = {};  // a command that it is not for
 };
 
-constexpr std::string_view one_thing = "the panel shows one thing; give one of them",
-                           one_way =
-                               "lenses of triangles are traced sample by sample, in one way, for one picture; give one of them";
+constexpr std::string_view
+    one_thing = "the panel can show only one of these; give one of them",
+    one_way = "lenses of triangles have one renderer: point samples on the CPU, for a single picture; give one of them";
 
 const std::vector<Rule>& contradictions() {
     static const std::vector<Rule> all{
@@ -33,14 +33,13 @@ const std::vector<Rule>& contradictions() {
         // The viewer can photograph the model beside such a panel, or show it in place of that.
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--panel-image",
-         "an image is shown as it is, wherever the model was when it was made; give the first to lfdsim eia, which makes such "
-         "images",
+         "a panel image is shown unchanged; give the first to lfdsim eia, which makes panel images of a model",
          "view"},
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--pattern",
          "a test pattern shows no model; give one of them",
          "view"},
-        {{"--exposure"}, "--path", "all frames keep the panel's own brightness; give one of them"},
+        {{"--exposure"}, "--path", "frames of a path are written without exposure; give one of them"},
         {{"--camera-mm"}, "--path", "the camera is in one place or on a path; give one of them"},
         {{"--target-error", "--path", "--device cuda", "--kernel", "--estimator filtered"}, "--lens-mesh", one_way},
         {{"--samples"}, "--target-error", "the error determines the number of samples; give one of them"},

@@ -52,7 +52,7 @@ void run(int argc, char** argv) {
     LFDSIM_COMMANDS(LFDSIM_ADD_COMMAND)
     const std::string asked = line.parse(cli::arguments(argc, argv));
     if (!asked.empty()) cli::print(asked);
-    for (const std::string& reason : gpus_given_up()) spdlog::warn("{}; the CPU went on", reason);
+    for (const std::string& reason : gpus_given_up()) spdlog::warn("{}; the CPU continued", reason);
 }
 
 /// The exit code.

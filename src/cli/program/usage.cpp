@@ -108,7 +108,7 @@ std::vector<std::string> spaced_numbers(const std::string& form, std::span<const
 InputError spaced_error(const std::string& option, const std::string& form, const std::vector<std::string>& numbers) {
     const std::string between(1, separator(form));
     const bool comma = between == ",";
-    return {option, fmt::format("the numbers of its value, {}, have {} between them and no spaces: {} {}",
+    return {option, fmt::format("the numbers of its value, {}, are separated by {} without spaces: {} {}",
                                 form.substr(form.rfind('|') + 1), comma ? "commas" : "an x", option, fmt::join(numbers, between))};
 }
 

@@ -80,15 +80,19 @@ std::vector<Figure> figures(const Display& d, const Geometry& g) {
             {"array_width_mm", {g.array_width_mm}, "lens array, width"},
             {"array_height_mm", {g.array_height_mm}, "lens array, height"},
             {"screen_field_deg", screen_field_deg(d, g),
-             "what the eye sees of the screen from the camera's distance: its field, horizontally and vertically",
+             "field of view of the screen from the camera's distance, horizontal and vertical",
              "2 atan(w / 2E), w the lesser of the array's width and of the panel's, less g/E of it",
-             "the camera stands inside the display or behind it"},
+             "the camera is inside the display or behind it"},
             {"frame_width_mm", {g.frame_width_mm}, "camera's frame in the plane through its target, width"},
             {"focus_distance_mm", {g.focus_distance_mm}, "camera's focus along the line of sight"},
             {"content_depth_mm",
              {g.content_depth_mm},
              "depth of the model's centre, of objects midway between the nearest and the furthest"},
-            {"content_height_mm", {g.content_height_mm.value_or(none)}, "height of the model", "", "each object has its own"}};
+            {"content_height_mm",
+             {g.content_height_mm.value_or(none)},
+             "height of the model",
+             "",
+             "each object has a height of its own"}};
 }
 
 namespace {
@@ -125,7 +129,7 @@ bool fills_cells(const Display& d, const Geometry& g) {
 
 /// Which depths are sharp, named as `analyze dof` names them, and the finest detail as the eye sees it.
 std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory& t) {
-    constexpr const char* inside = "the camera stands inside the display or behind it";
+    constexpr const char* inside = "the camera is inside the display or behind it";
     const double eye = eye_distance_mm(d), z = g.content_depth_mm;
     const bool pinhole = d.lens.type() == LensType::pinhole, before = eye > nearest_eye_mm(g);
     const char* none = pinhole   ? "a pinhole has no image plane"
@@ -154,7 +158,7 @@ std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory&
              {cycles_per_degree(g, at_content, z, eye)},
              "resolution limit of lenses and pixels at the content's depth, as the eye sees it",
              "the lesser of E / 2p and (E - z) g / (2 a |z|) per radian",
-             "the camera stands inside the display or behind the content"}};
+             "the camera is inside the display or behind the content"}};
 }
 
 }  // namespace
@@ -165,7 +169,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
         const double x = t.along[0].*figure, y = t.along[1].*figure;
         return by_axis ? std::vector{x, y} : std::vector{x};
     };
-    constexpr const char* inside = "the camera stands inside the display or behind it";
+    constexpr const char* inside = "the camera is inside the display or behind it";
     constexpr const char* pinhole = "a pinhole has no image plane";
     const bool pinhole_lens = d.lens.type() == LensType::pinhole;
     constexpr const char* no_gaps = "lenses that fill their cells have no gaps";
@@ -177,16 +181,15 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
     for (double& views : views_elemental) views /= d.panel.pixel_pitch_mm * (g.lattice.strips ? g.lattice.cos_turn : 1);
     std::vector<Figure> all = {
         {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, where an eye may move", "2 atan(p / 2g)"},
-        {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, which theory has paraxial",
-         "Snell's law, from p'/2 on the panel to the axis at the lens",
-         "a glass lens has aberrations, which analyze fov counts in"},
+        {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, not paraxial",
+         "Snell's law, from p'/2 on the panel to the axis at the lens", "a glass lens has aberrations; analyze fov includes them"},
         {"fov_horizontal_deg",
          {t.fov_horizontal_deg},
          "field of view of strips along the panel's rows",
          "2 atan(p / (2 g cos(slant)))",
-         "only strips are turned against what they show"},
-        {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg),
-         "the same by whole elemental images: what lfdsim new --fov-deg means", "2 atan(p' / 2g)"},
+         "only strips have a slant"},
+        {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg), "the same by whole elemental images, as lfdsim new --fov-deg",
+         "2 atan(p' / 2g)"},
         {"focal_length_mm", {t.focal_length_mm}, "f, focal length of a lens", "paraxial, of the lens's surfaces in air", pinhole},
         {"gap_mm", {t.gap_mm}, "g, gap", "panel to the front principal plane, layers by thickness / index"},
         {"central_depth_mm",
@@ -198,7 +201,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
         {"depth_of_field_mm",
          {published_depth_mm(t)},
          "depth of field, as published",
-         "2 |L| P_I / D, for ranges less deep than L is far",
+         "2 |L| P_I / D, for ranges less deep than |L|",
          pinhole_lens ? pinhole : "the published formula is for a range about L that does not reach the lenses"},
         {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, "", "1 / (1/L + a / (g D))", pinhole, Figure::Presentation::for_scripts},
         {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, "", "1 / (1/L - a / (g D))", pinhole, Figure::Presentation::for_scripts},
@@ -236,7 +239,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
     all.insert(all.end(), rest.begin(), rest.end());
     if (const std::vector<double> shifts = colour_shifts_mm(d, t); !shifts.empty())
         all.push_back({"subpixel_shift_mm", shifts,
-                       "how far aside red, green and blue of content made for whole pixels are seen at the viewing distance",
+                       "lateral shift of red, green and blue at the viewing distance, of content made for whole pixels",
                        "distance of its subpixels from the pixel's centre x (D - z_H') / g"});
     return all;
 }

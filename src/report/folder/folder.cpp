@@ -54,7 +54,7 @@ bool named_as_of(const Measure& measure, const fs::path& file) {
 }
 
 InputError foreign(const fs::path& path) {
-    return {path.string(), "is no result of lfdsim and would be written over; give another folder, or --replace"};
+    return {path.string(), "is not a result of lfdsim and would be overwritten; give another folder, or --replace"};
 }
 
 // The same document where names in it hold what a terminal would obey.
@@ -167,7 +167,7 @@ void ResultFolder::keep_apart(std::span<const Measure* const> wanted, bool resum
     }
     if (const std::vector<std::string> there = others(); !there.empty())
         throw InputError(path_.string(),
-                         fmt::format("holds results of other settings: {}; give another folder, or --replace to remove them",
+                         fmt::format("contains results of other settings: {}; give another folder, or --replace to remove them",
                                      fmt::join(there, ", ")));
     keep_report_apart(path_, replace);
 }

@@ -65,8 +65,8 @@ std::string verdict(const Subject& subject, const ResultFolder& folder, const st
     for (const std::string& doubt : worth_knowing(display, geometry, theory(display, geometry)))
         doubts += fmt::format("<li>{}</li>\n", escaped(doubt));
     std::string html = "<section id=\"verdict\">\n<h2>In short</h2>\n";
-    html += doubts.empty() ? "<p>The description gives no cause for doubt.</p>\n"
-                           : "<p class=\"warning\">Doubts about this design:</p>\n<ul>\n" + doubts + "</ul>\n";
+    html += doubts.empty() ? "<p>The description raises no warnings.</p>\n"
+                           : "<p class=\"warning\">Warnings about this design:</p>\n<ul>\n" + doubts + "</ul>\n";
     if (!found.empty())
         html +=
             "<div class=\"wide\"><table class=\"findings\">\n<thead><tr><th scope=\"col\">Measure</th><th scope=\"col\">Figure</th>"

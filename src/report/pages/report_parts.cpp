@@ -116,7 +116,7 @@ std::string theory_rows(const Subject& s) {
         {"Depth of field by the lens", depths_in_words(g, sharp_by_lens(d, g, t, eye), eye)},
         {"Depth of field by the pixel", depths_in_words(g, sharp_by_pixel(g, t, eye), eye)},
         {"Image of a pixel at L", number(t.pixel_image_mm, " mm")},
-        {"Whole screen seen from within", theory(&AxisTheory::viewing_zone_deg, "°")},
+        {"Whole screen visible within", theory(&AxisTheory::viewing_zone_deg, "°")},
         {"Sampling by lenses, by pixels", fmt::format("{}, {}", theory(&AxisTheory::lens_sampling_limit_per_mm, "/mm"),
                                                       number(t.pixel_image_limit_per_mm, "/mm at L"))},
     };
@@ -206,7 +206,7 @@ std::vector<std::string> figures_of(const ResultFolder& folder, const Json& meas
 std::string measure_section(const ResultFolder& folder, const Json& measured) {
     const Json& report = measured.at("report");
     std::string html = fmt::format("<p class=\"source\">Source: {}</p>\n", text_of(report, "source"));
-    if (!report.at("findings").empty()) html += "<p>Its figures stand in <a href=\"#summary\">theory and measurement</a>.</p>\n";
+    if (!report.at("findings").empty()) html += "<p>Its figures are in <a href=\"#summary\">theory and measurement</a>.</p>\n";
     for (const Json& remark : report.at("remarks")) html += fmt::format("<p>{}</p>\n", escaped(remark.get<std::string>()));
     html += plots(folder, report.at("plots")) + plots(folder, report.at("maps"));
     html += pictures(folder, report.at("pictures"), most_columns) + pictures(folder, report.at("animations"), 0);

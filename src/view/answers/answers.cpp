@@ -199,7 +199,7 @@ Json answer(const Library& library, Panels& panels, const Wanted& wanted, const 
     } catch (const Stopped&) {
         problem(what, "was stopped");
     } catch (const std::bad_alloc&) {
-        problem(what, "needs more memory than there is");
+        problem(what, "needs more memory than is available");
     } catch (const std::runtime_error& error) {  // disk full, no program to read models
         problem(what, error.what());
     }

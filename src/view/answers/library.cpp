@@ -172,7 +172,7 @@ fs::path Library::file(const std::string& name, FileKind kind) const {
 fs::path Library::new_file(const std::string& name) const {
     const fs::path path = folder_ / relative(name);
     if (path.extension() != ".toml") throw InputError(quoted(name), "does not end in .toml");
-    if (!is_printable(name)) throw InputError(quoted(name), "has characters that cannot be seen");
+    if (!is_printable(name)) throw InputError(quoted(name), "has invisible characters");
     std::error_code error;
     if (!fs::is_directory(resolve_inside(path.parent_path(), folder_, name), error))
         throw InputError(quoted(name), "is not in a folder");

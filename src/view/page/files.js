@@ -75,7 +75,7 @@ export class Files {
     } catch {
       place.focus();
       place.select();
-      files_say("The browser keeps its clipboard closed: the command is selected, Ctrl-C copies it.");
+      files_say("The browser does not allow copying: the command is selected, Ctrl-C copies it.");
     }
   }
   async ask_and_say(what, more, then) {

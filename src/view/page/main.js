@@ -127,7 +127,7 @@ function drawn(header) {
   if (known) known.seen = true;
   times.push(now);
   while (times[0] < now - 1000) times.shift();
-  const lag = known ? `, ${Math.round(now - known.event)} ms after the hand` : "";
+  const lag = known ? `, ${Math.round(now - known.event)} ms after the input` : "";
   say(byId("frame-says"), `${header.width} x ${header.height} ${quality_words[header.quality] || ""}` +
     (header.quality === "coarse" ? `, ${times.length} a second${lag}` : `, ${Math.round(header.render_ms + header.encode_ms)} ms`));
   if (header.quality === "final" && header.id === pacing.id) drawings.refresh(true);

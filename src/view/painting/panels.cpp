@@ -252,8 +252,8 @@ Panels::PartsFuture Panels::reading(const PanelContent& source, const Display& d
     make_room(2 * double(options.bytes));
     const double most = std::clamp(share_of_reading * budget_.left(), least_for_reading, 2 * double(options.bytes));
     options.bytes = std::int64_t(most / 2);
-    options.whose = fmt::format("what the viewer gives to reading a model of the {} that are left to all its visitors together",
-                                bytes_text(budget_.left()));
+    options.whose =
+        fmt::format("the viewer's share for reading a model, of the {} left for all visitors", bytes_text(budget_.left()));
     read->claim = budget_.claim(model_key(display), "reading a model", most);
     const std::vector<ContentFile> files = scene ? content_files(display) : std::vector{ContentFile{source.name}};
     const std::weak_ptr<const void> held = read;
