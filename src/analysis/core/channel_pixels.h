@@ -21,7 +21,7 @@ struct LightPath {
     Geometry geometry;
     double weight;
 };
-/// Those of a channel; `green`: the display's own geometry, which is the only one where nothing disperses.
+/// The light paths of a channel; `green`: the display's own geometry, which is the only one where nothing disperses.
 std::vector<LightPath> light_paths(const Display&, const Geometry& green, std::size_t channel);
 
 class ChannelPixels {
@@ -34,7 +34,7 @@ class ChannelPixels {
         double brightness;  // over the pixel's own light: white is 1 in the mean
         Place shown;        // the point for which the content of the pixel that shines here is made
     };
-    /// Nothing where the channel does not shine, as where a subpixel belongs to a pixel off the panel.
+    /// What shines at a position; nothing where the channel does not shine, as where a subpixel belongs to a pixel off the panel.
     std::optional<Shining> at(const Place&) const;
 
     /// The mean of exp(2 pi i nu (place - shown)) over its light, nu in periods per pixel to the right and down.
@@ -46,7 +46,7 @@ class ChannelPixels {
     /// The width in pixels of its narrowest part along a direction, parallel to the panel: to the first zero of its sinc.
     double narrowest(double x, double y) const;
 
-    /// How much brighter than white's mean it is at most.
+    /// The largest brightness of the channel over white's mean.
     double gain() const;
 
   private:

@@ -10,13 +10,13 @@ namespace lfdsim {
 /// u', v' of CIE 1976.
 using Chromaticity = std::array<double, 2>;
 
-/// Of light in linear red, green and blue with the primaries of sRGB (IEC 61966-2-1); NaN for none.
+/// The chromaticity of light in linear red, green and blue with the primaries of sRGB (IEC 61966-2-1); NaN for none.
 Chromaticity chromaticity(const std::array<double, 3>& rgb);
 
 /// Light of one part in red, green and blue, over that of a white panel, by each set of lines of sight.
 using ColourSums = std::array<Sums, 3>;
 
-/// By how much the chromaticities of parts differ from that of their light together, as distances in u', v'.
+/// The distances in u', v' of the parts' chromaticities from that of their light together.
 struct ColourSpread {
     Estimate largest, mean;           // mean: over parts by their weights
     Chromaticity together;            // of all parts' light

@@ -15,7 +15,8 @@ struct Estimate {
     double error = std::numeric_limits<double>::quiet_NaN();  // covers the true value in 95 of 100 cases
 };
 
-/// Of two to eight values: the mean, and Student's factor for 95 % times its standard error, plus `precision`, the error of each.
+/// The estimate from two to eight values: the mean, and Student's factor for 95 % times its standard error, plus `precision`, the
+/// error of each.
 inline Estimate estimate(std::span<const double> found, double precision = 0) {
     constexpr std::array<double, 9> student{0, 0, 12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36};
     const double n = double(found.size());

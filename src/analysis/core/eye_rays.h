@@ -19,7 +19,7 @@ using Choice = std::array<double, 6>;
 /// alone. Errors of sums over different sets are independent.
 std::vector<Choice> even_choices(int count, std::uint32_t set = 0);
 
-/// Where a line of sight ends.
+/// The end of a line of sight.
 struct Sight {
     bool on_screen = true;  // it aims at a point in front of the panel; else it is not followed, and does not count
     double light = 0;       // radiance, 1 for a white panel's along its normal; 0: it is blocked, or ends beside the panel
@@ -37,19 +37,20 @@ class EyeRays {
     EyeRays(const Display&, const Geometry&);
     const Lattice<double>& lattice() const { return scene_.lattice; }
 
-    /// From an eye in front of the display. The line aims at a point of the array's rectangle in the vertex plane and is turned
-    /// where it crosses the diffuser, as camera rays are. For each choice of lens and angles its place in the cell is shifted
-    /// cyclically by as much as the diffuser moves it, which keeps all means and spreads lines evenly where they meet the lens; but
-    /// not along strips, where light is as even as the panel's. Lines beside the screen (geometry/screen.h) are not followed.
+    /// Traces a line of sight from an eye in front of the display. The line aims at a point of the array's rectangle in the
+    /// vertex plane and is turned where it crosses the diffuser, as camera rays are. For each choice of lens and angles its place
+    /// in the cell is shifted cyclically by as much as the diffuser moves it, which keeps all means and spreads lines evenly
+    /// where they meet the lens; but not along strips, where light is as even as the panel's. Lines beside the screen
+    /// (geometry/screen.h) are not followed.
     Sight look(const Vec3d& eye, const Choice&) const;
 
     /// The point of the vertex plane that this line aims at.
     Vec3d aim(const Vec3d& eye, const Choice&) const;
 
-    /// For the line from an eye through a point, turned by the diffuser's angles for the numbers a and b.
+    /// Traces the line from an eye through a point, turned by the diffuser's angles for the numbers a and b.
     Sight look_through(const Vec3d& eye, const Vec3d& point, double a, double b) const;
 
-    /// For the line that comes down to `at` along the unit vector `to`.
+    /// Traces the line that comes down to `at` along the unit vector `to`.
     Sight look_along(const Vec3d& at, const Vec3d& to, double a, double b) const;
 
     /// The point (x, y), mm in the array's own axes from its centre, in the vertex plane.

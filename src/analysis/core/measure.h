@@ -9,7 +9,7 @@
 
 namespace lfdsim {
 
-/// What a measure cannot do without.
+/// The requirements of a measure.
 struct MeasureNeeds {
     bool scene = false;         // that the display shows
     bool point_images = false;  // made by each lens, as by all but pinholes
@@ -30,7 +30,7 @@ struct Measure {
 /// Why a display lacks what a measure needs, if it does.
 std::optional<Problem> refusal(const Measure&, const Display&);
 
-/// All of them, in the order of the report.
+/// All measures, in the order of the report.
 std::span<const Measure> measures();
 
 /// Throws InputError that lists the names.

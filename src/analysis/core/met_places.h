@@ -46,7 +46,7 @@ class EyePaths {
     EyePaths(const Display&, const Geometry&);
     MetPlaces look(const Vec3d& eye, const LineSets&) const;
 
-    /// What red, green and blue count in the light of each path: together luminance.
+    /// The weights of red, green and blue in the light of each path, by luminance.
     const std::vector<ChannelWeights>& weights() const { return weights_; }
     int more_for(const Vec3d& eye) const { return rays_.front().more_for(eye); }
 

@@ -81,7 +81,7 @@ std::string stop_remedy(const Display& d, const std::optional<Stop>& stop) {
         stop->radius_mm, stop->radius_mm, 100 * stop->light_share);
 }
 
-/// How to focus lenses on the panel: another lens, or another gap where that is possible.
+/// The remedy that focuses lenses on the panel: another lens, or another gap where that is possible.
 std::string focus_remedy(Display d, const Geometry& g) {
     std::string remedy = fmt::format("Lenses of a focal length of {:.4g} mm, the gap, would be focused on the panel", g.gap_mm);
     const double stronger = g.gap_mm / g.focal_length_mm;
@@ -177,7 +177,7 @@ std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Th
         stop_remedy(d, stop_against_blur(d, g)));
 }
 
-/// What makes the colours run together, tried one by one: colours along the strips, strips that lean, a diffuser.
+/// The remedy that mixes the colours, found by trial: colours along the strips, strips that lean, a diffuser.
 std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& wave) {
     const auto helps = [](const Display& changed) {
         if (!valid(changed)) return false;

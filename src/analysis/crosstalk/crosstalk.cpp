@@ -31,7 +31,7 @@ struct Middle {
     Crosstalk measured, theory;
 };
 
-/// Of several views; undefined where there are none.
+/// The crosstalk of several views; undefined where there are none.
 struct ViewsCrosstalk {
     std::vector<double> view{0};               // their middles, in steps
     std::vector<Crosstalk> all{{}}, next{{}};  // of all other views together, and of one neighbour, their mean

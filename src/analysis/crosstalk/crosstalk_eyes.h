@@ -82,7 +82,7 @@ class Eyes {
         found.leak.open += found.signal.open;
         return found;
     }
-    /// Of the left (0) or right eye (1).
+    /// The leak of the left (0) or right eye (1).
     static Leak of_side(const MeantLight& light, std::size_t side) {
         const LightPart left = light.between(-infinity, 0), right = light.between(0, infinity);
         return side == 0 ? Leak{left, right} : Leak{right, left};

@@ -78,14 +78,14 @@ Heads look_with_heads(Eyes& eyes, double apart) {
     return all;
 }
 
-/// Of the eye that sees worse. No light counts as the worst.
+/// The crosstalk of the eye that has more. No light counts as the worst.
 Crosstalk worse(const BothEyes& both) {
     const auto rank = [](const Crosstalk& c) { return std::isnan(c.percent.value) ? infinity : c.percent.value; };
     return rank(both[0]) > rank(both[1]) ? both[0] : both[1];
 }
 
-/// How far the head may go to one side, -1 or 1: at the first place that is too bad the last step is halved again and again. With
-/// `errors` times its error added to each figure.
+/// The largest displacement of the head to one side, -1 or 1, by bisection of the step to the first place that is too bad. Each
+/// figure has `errors` times its error added.
 Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
     const auto allowed = [&](const BothEyes& both) {
         const Crosstalk found = worse(both);
@@ -114,7 +114,7 @@ Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
     return {0.5 * (good + bad), 0.5 * std::abs(bad - good), {}};
 }
 
-/// Where both eyes have at most what is tolerable; the error is as far as the limits move with the figures' errors.
+/// The interval in which both eyes have tolerable crosstalk; its error is the shift of the limits by the figures' errors.
 Interval head_range(Eyes& eyes, const Heads& all) {
     std::array<Limit, limits> found;
     eyes.parts.run(limits, [&](int n) { found[std::size_t(n)] = head_limit(eyes, all, n < 3 ? -1 : 1, n % 3 - 1); });

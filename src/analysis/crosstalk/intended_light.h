@@ -16,7 +16,7 @@ struct LightPart {
         0;  // it may be so much more or less: light of points on the border of elemental images, whose lens rounding chooses
 };
 
-/// In per cent. Where rounding decides on more than half of it, and on more than 1 %, it is NaN.
+/// Crosstalk in per cent. Where rounding decides on more than half of it, and on more than 1 %, it is NaN.
 struct Crosstalk {
     Estimate percent;
     bool left_to_rounding = false;
@@ -28,10 +28,10 @@ Crosstalk crosstalk_of(const LightPart& leak, const LightPart& signal, double mi
 /// The light that one eye gathers of a white panel, by the slopes that what shines there is meant for.
 class MeantLight {
   public:
-    /// Of what the eye's lines meet; for each path what its channels count.
+    /// Sorts the places that the eye's lines meet; the weights are those of the channels of each path.
     MeantLight(const MetPlaces&, const std::vector<ChannelWeights>&, const MeantPanel&);
-    /// Of the slopes from low to high. Light exactly at either end counts half, and so does light on the border of elemental images
-    /// of which one only has it there.
+    /// The light meant for slopes from low to high. Light exactly at either end counts half, and so does light on the border of
+    /// elemental images of which one only has it there.
     LightPart between(double low, double high) const;
     LightPart all() const { return between(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()); }
     /// The weight of three lines of sight, as so many may be missed by chance, over all light.

@@ -14,7 +14,7 @@ namespace lfdsim {
 /// centroid, to.
 class MeantPanel {
   public:
-    /// With subpixels, content may be made for each of them or for whole pixels.
+    /// The panel of a display. With subpixels, content may be made for each of them or for whole pixels.
     MeantPanel(const Display&, const Geometry&, ContentSampling);
 
     /// The viewers that a point's light is meant for, as slopes. A point on the border of elemental images has those of each of
@@ -35,8 +35,8 @@ class MeantPanel {
         double light;  // with its channels' weights; 1 is the mean of white with weights of 1 together
         ViewerSlopes slopes;
     };
-    /// Of a place on the panel, mm from its middle, in light of channels with these weights. Nothing: it is dark there, or no lens
-    /// owns what shines.
+    /// What shines at a place on the panel, mm from its middle, in light of channels with these weights. Nothing: it is dark
+    /// there, or no lens owns what shines.
     std::optional<ShiningPoint> at(double x_mm, double y_mm, const ChannelWeights&) const;
 
     /// The viewers that a pixel's centre is meant for.
@@ -57,7 +57,7 @@ class MeantPanel {
     /// The horizontal slope at which a lens shows a point, through its nodal points, to a viewer in front of the screen's middle: a
     /// viewer at x, E from the principal plane, is meant to see the slope x/E. NaN: no lens owns the point.
     double slope(const Point&) const;
-    /// Those of all lenses whose elemental images are nearer than `margin` mm.
+    /// The slopes of all lenses whose elemental images are nearer than `margin` mm.
     ViewerSlopes slopes(const Point&, double margin) const;
 
     Pickup pickup_;

@@ -13,7 +13,7 @@ class MeantTheory {
     /// The eye's distance from the panel, mm.
     MeantTheory(const Subject&, double distance_mm);
 
-    /// What an eye at x meets.
+    /// The places that the lines of sight of an eye at x meet.
     MetPlaces look(double x_mm, const LineSets&) const;
 
   private:

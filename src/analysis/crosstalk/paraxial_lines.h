@@ -24,12 +24,11 @@ class ParaxialLines {
     /// An eye in front of the display and its diffuser, mm.
     ParaxialLines(const Display&, const Geometry&, const Vec3d& eye);
 
-    /// For the line that aims at (x, y), mm in the display's frame, turned by the diffuser's angles for the numbers a and b, -1 to
-    /// 1. Nothing: it comes down beside all lenses,
-    /// or not at all.
+    /// Follows the line that aims at (x, y), mm in the display's frame, turned by the diffuser's angles for the numbers a and b,
+    /// -1 to 1. Nothing: it comes down beside all lenses, or not at all.
     std::optional<ParaxialLine> look(double x, double y, double a, double b) const;
 
-    /// Where a line aims that comes down to the lenses at (x, y), but for how little the diffuser's shift changes on that way.
+    /// The aim of the line that comes down to the lenses at (x, y), to first order of the diffuser's shift.
     std::optional<optics::Vec2<double>> aim_at(double x, double y, double a, double b) const;
 
     /// Whether the panel reaches there; a place as `seen`.
@@ -41,7 +40,7 @@ class ParaxialLines {
     };
     std::optional<LineSlopes> slopes(double x, double y, double a, double b) const;
     double angle(double number, std::size_t axis) const;  // of the diffuser, radians
-    /// How far aside, per slope, lines go below the lenses, along the array's x and y.
+    /// The lateral displacement of lines below the lenses per slope, along the array's x and y.
     optics::Vec2<double> reach_mm(double slope_squared) const;
 
     const Display& display_;

@@ -53,7 +53,7 @@ SlopeSpread::Spread SlopeSpread::aperture() const {
             }};
 }
 
-/// Of lenses about a place, as far as half way to the next places.
+/// The spread by the lenses about a place, as far as half way to the next places.
 SlopeSpread::Spread SlopeSpread::lenses() const {
     const double width = std::abs(array_mm_ / places_across * lens_slopes_per_mm_);
     return {-0.5 * width, 0.5 * width, [width](double x) { return even_below(x, width); }};

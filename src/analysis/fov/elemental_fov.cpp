@@ -73,7 +73,7 @@ double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
 
 namespace {
 
-/// For one side: the steps between which the share falls below one half, by few lines of sight, or why there are none.
+/// The bracket of one side: the steps between which the share falls below one half, by few lines of sight, or why there are none.
 struct Bracket {
     double in = nan, out = nan;
     std::string missing;

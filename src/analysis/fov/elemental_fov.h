@@ -12,13 +12,13 @@
 
 namespace lfdsim {
 
-/// Of the light that an eye sees of a white, Lambertian panel through those lenses whose whole elemental image lies on it, the
-/// share that comes from the image of the lens that it passed. It depends on no content, picture or pixels: an elemental image is
-/// the cell, scaled to the pitch p', about the point where the line from the viewer that images are made for, through the lens's
-/// nodal points, meets the panel.
+/// The share of light from own elemental images: of the light that an eye sees of a white, Lambertian panel through lenses whose
+/// whole elemental image lies on it, that which comes from the image of the lens that it passed. It depends on no content,
+/// picture or pixels: an elemental image is the cell, scaled to the pitch p', about the point where the line from the viewer that
+/// images are made for, through the lens's nodal points, meets the panel.
 class OwnLens {
   public:
-    /// With the display's diffuser, or as light leaves the lenses.
+    /// The light with the display's diffuser, or as it leaves the lenses.
     OwnLens(Display, bool with_diffuser);
 
     /// NaN: the eye sees no such light.
@@ -37,7 +37,7 @@ class OwnLens {
     bool is_whole(double centre_x, double centre_y) const;
 };
 
-/// Where the share falls to one half on either side of the middle. NaN: it does not, and `missing` says why.
+/// The positions at which the share falls to one half on either side of the middle. NaN: it does not, and `missing` says why.
 struct OwnRange {
     std::array<double, 2> at, error;
     std::array<std::string, 2> missing;
@@ -60,10 +60,10 @@ constexpr int own_range_parts = 2;
 /// The arc of `analyze fov`: about the panel's centre at the eye's distance, towards the array's x' (axis 0) or y' (1); degrees
 /// from the panel's normal.
 EyePath arc(const Display&, const Geometry&, double distance_mm, int axis);
-/// Where theory puts the edge on that arc: X/E = p'/2g with X = R sin a aside of the axis and E = R cos a - z_r from the rear
-/// principal plane.
+/// The edge on that arc by theory: X/E = p'/2g with X = R sin a aside of the axis and E = R cos a - z_r from the rear principal
+/// plane.
 double arc_edge_deg(const Geometry&, const Theory&, double distance_mm, int axis);
-/// In the plane at the eye's distance from the panel, mm from the middle.
+/// The path of an eye in the plane at its distance from the panel, mm from the middle.
 EyePath across(const Display&, const Geometry&, double distance_mm, int axis);
 
 }  // namespace lfdsim

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double least_view_ssim = 0.85, most_slope_per_deg = 0.005;  // the 2019 paper's
 
-/// Which of the two published rules ends the field of view on a side: the nearer one.
+/// The published rule that ends the field of view on a side: the nearer one of the two.
 std::string bound(const Limit& ssim, const Limit& gradient) {
     if (std::isnan(ssim.at) && std::isnan(gradient.at)) return "none";
     if (std::isnan(gradient.at) || std::abs(ssim.at) <= std::abs(gradient.at)) return "ssim";
@@ -25,7 +25,7 @@ Interval interval(const OwnRange& r) {
     return known({{r.at[0], r.error[0], r.missing[0]}, {r.at[1], r.error[1], r.missing[1]}}, 0);
 }
 
-/// Where a curve of SSIM keeps the published rules, and where it falls half-way.
+/// The intervals in which a curve of SSIM keeps the published rules, and that in which it is above half of its fall.
 struct SsimIntervals {
     Interval ssim, gradient, half_way;
     double error;  // of the curve
@@ -97,7 +97,7 @@ void add_likeness(Result& result, const std::string& name, const std::string& wa
     result.add(name + ".screen.middle_ssim", at_middle(curves.screen));
 }
 
-/// How much more the edges by likeness lie to one side than those by geometry.
+/// The largest shift to one side of the edges by likeness against those by geometry.
 double most_aside_deg(const Json& figures) {
     double most = 0;
     for (const char* axis : {"horizontal", "vertical"}) {
@@ -112,7 +112,7 @@ double most_aside_deg(const Json& figures) {
     return most;
 }
 
-/// Where an eye may be in the plane at its distance: the width and the height.
+/// Adds the eyebox, the extent of the field of view in the plane at the eye's distance: width and height.
 void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>& ranges) {
     // A hexagon's image is as high as from corner to corner.
     const bool hexagon = s.display().array.lattice == LatticeKind::hexagon;

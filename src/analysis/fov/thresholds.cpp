@@ -27,7 +27,7 @@ Limit crossing(const Curve& c, double at, double value, double next, double next
     return {at + (level - value) / slope, std::hypot(c.error / slope, 0.5 * (next - at))};
 }
 
-/// Where the curve first falls below the level, from the centre to one side.
+/// The first place, from the centre to one side, at which the curve falls below the level.
 Limit first_below(const Curve& c, double centre, int side, double level) {
     double at = std::clamp(centre, c.at.front(), c.at.back()), value = value_at(c, at);
     const int count = int(c.at.size());
@@ -146,7 +146,7 @@ Interval where_it_falls(const Curve& c, const Falls& expected) {
 
 namespace {
 
-/// Of both limits, once where it is the same.
+/// The reasons of both limits, once where they are the same.
 std::string why_missing(const Interval& i) {
     std::string why = i.low.missing;
     if (!i.high.missing.empty() && i.high.missing != why) why += (why.empty() ? "" : "; ") + i.high.missing;

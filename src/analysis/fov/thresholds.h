@@ -11,7 +11,7 @@
 
 namespace lfdsim {
 
-/// Where an interval ends. NaN: nowhere, or nowhere that is known, and `missing` says why.
+/// An end of an interval. NaN: nowhere, or nowhere that is known, and `missing` says why.
 struct Limit {
     double at = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();  // from the curve's noise and half the step between its places
@@ -31,7 +31,7 @@ struct Interval {
 /// Takes away each end whose error reaches back to the centre that it was sought from: an error as large as the figure leaves none.
 Interval known(Interval, double centre);
 
-/// The same limits by another measure of the place, rising or falling; errors to first order.
+/// The interval with its limits in another measure of the place, rising or falling; errors to first order.
 Interval mapped(const Interval&, const std::function<double(double)>&);
 
 struct Curve {
@@ -40,14 +40,14 @@ struct Curve {
     double error = 0;           // standard deviation of each value
 };
 
-/// Where the curve is `least` or more.
+/// The interval in which the curve is `least` or more.
 Interval where_at_least(const Curve&, double centre, double least);
 
-/// Where it rises or falls by `most` or less per unit. Slopes count in the middle between two places.
+/// The interval in which the curve rises or falls by `most` or less per unit. Slopes count in the middle between two places.
 Interval where_steady(const Curve&, double centre, double most);
 
-/// Where a curve is expected to fall, from other sources than itself: low to the left and high to the right of the centre; and how
-/// far on either side of that place the fall extends.
+/// The expected falls of a curve, from other sources: low to the left and high to the right of the centre; and their extent to
+/// either side.
 struct Falls {
     double low, high, reach;
 };
@@ -63,7 +63,7 @@ Interval where_it_falls(const Curve&, const Falls&);
 /// not reach that side; an end nearer to 0 than its error is none.
 Interval on_side_of_zero(Interval, bool above, const std::string& nothing_there);
 
-/// As a figure of a measure, which is missing where a limit is.
+/// The interval as a figure of a measure, which is missing where a limit is.
 FigureValue figure_of(const Interval&);
 
 }  // namespace lfdsim

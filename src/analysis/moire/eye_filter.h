@@ -7,8 +7,8 @@ namespace lfdsim {
 /// A(f) = 2.6 (0.0192 + 0.114 f) exp(-(0.114 f)^1.1), greatest at 8 cycles per degree.
 double eye_filter(double cycles_per_degree);
 
-/// The same for red against green of equal luminance: it falls from the coarsest on, tenfold every 6 cycles per degree, to nothing
-/// at 12; after Mullen, J. Physiol. 359, 381 (1985).
+/// The contrast sensitivity for red against green of equal luminance: it falls from the coarsest on, tenfold every 6 cycles per
+/// degree, to nothing at 12; after Mullen, J. Physiol. 359, 381 (1985).
 double colour_filter(double cycles_per_degree);
 
 /// Patterns finer than this are invisible: the usual limit of acuity.

@@ -30,10 +30,10 @@ class LineEnds {
     std::vector<std::vector<LineEnd>> paths;  // of each path of light
 };
 
-/// What they see of one mixture.
+/// The waves of a white screen in one mixture of channels, as harmonics of the panel.
 class HarmonicLines {
   public:
-    /// Both must live as long.
+    /// Keeps references to both arguments, which must live as long.
     HarmonicLines(const LineEnds&, const WhiteSeen&, std::size_t mixture);
 
     struct MeasuredWave {
@@ -67,7 +67,7 @@ class HarmonicLines {
         const Harmonic* harmonic;
         double amplitude;
     };
-    /// What harmonics surely give to a wave, the strongest first; those that may give `least` or more.
+    /// The significant shares of harmonics in a wave, the strongest first, of harmonics that may give `least` or more.
     std::vector<HarmonicShare> parts(const Frequency&, double least) const;
     std::complex<double> of_line(const LineEnd&, const Harmonic&, const Frequency&) const;
     WaveSums sums(const Harmonic&, const Frequency&) const;

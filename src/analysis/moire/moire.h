@@ -15,7 +15,8 @@ struct MeasuredBeat {
     Estimate period_mm, direction_deg, contrast, seen;
 };
 
-/// None where no component rises above the noise of the lines: `least` is then the contrast that one would have needed.
+/// The result of the search for the strongest wave; none where no component rises above the noise of the lines: `least` is then
+/// the contrast that one would have needed.
 struct MoireSearch {
     std::optional<MeasuredBeat> strongest;
     std::vector<MeasuredBeat> as_strong;  // other ones that may be as strong within the errors

@@ -12,10 +12,10 @@
 namespace lfdsim {
 
 double period_mm(const Frequency&);
-/// Of the wave vector, counter-clockwise from +x, 0 to below 180.
+/// The direction of the wave vector, counter-clockwise from +x, 0 to below 180.
 double direction_deg(const Frequency&);
-/// What ranks equally strong waves by direction: within a tenth of a degree of 180 it is below 0, so that rounding makes no 180 of
-/// 0.
+/// The direction by which equally strong waves are ranked: within a tenth of a degree of 180 it is below 0, so that rounding
+/// makes no 180 of 0.
 inline double rank_deg(double direction_deg) { return direction_deg < 179.9 ? direction_deg : direction_deg - 180; }
 
 /// A component of the pattern. Contrast is Michelson's, of this component alone: without and with the eye's filter.

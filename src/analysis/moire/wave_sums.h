@@ -33,7 +33,7 @@ class WaveSums {
     /// The frequency near the given one where the wave is strongest, within 1.5 periods of the window of the one that the sums are
     /// about.
     Frequency peak(const Frequency& from, int without = -1) const;
-    /// How closely a frequency is known along x and y, however little noise there is: lenses with aberrations make waves that are
+    /// The least error of a frequency along x and y, however little noise there is: lenses with aberrations make waves that are
     /// not quite of one frequency, and a window weights their parts.
     Frequency closest() const { return {closest_step / width_, closest_step / height_}; }
 

@@ -42,19 +42,19 @@ class WhiteSeen {
     WhiteSeen(const Display&, const Geometry& green, const std::vector<ChannelWeights>& mixtures);
     std::size_t mixtures() const { return mixtures_; }
 
-    /// Of the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b: light[m] is that of
-    /// mixture m.
+    /// Looks along the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b: light[m] is
+    /// that of mixture m.
     void look(const Vec3d& eye, double x, double y, double a, double b, std::vector<WhiteLight>& light) const;
 
     /// Colours that take the same path count as one.
     std::size_t paths() const { return paths_.size(); }
-    /// What of a mixture takes a path; null if nothing does.
+    /// The white panel of the part of a mixture that takes a path; null if no part does.
     const WhitePanel* white(std::size_t path, std::size_t mixture) const {
         const std::optional<WhitePanel>& white = paths_[path].white[mixture];
         return white ? &*white : nullptr;
     }
-    /// Where such a line ends in the light of one path: columns and rows of the panel from its corner; the mean light there is 0
-    /// where the line is blocked or ends beside the panel.
+    /// The end of a line of sight in the light of one path: columns and rows of the panel from its corner; the mean light there
+    /// is 0 where the line is blocked or ends beside the panel.
     struct End {
         double column = 0, row = 0, light = 0;
     };
@@ -72,10 +72,10 @@ class WhiteSeen {
     std::vector<ChannelPath> paths_;
 };
 
-/// What such lines see of one mixture.
+/// The light of a window of the screen in one mixture, by lines of sight.
 class WhiteLines {
   public:
-    /// Of each mixture. Takes window.rows parts.
+    /// Traces the lines and makes one object for each mixture. Takes window.rows parts.
     static std::vector<WhiteLines> of(const WhiteSeen&, std::int64_t seed, const Vec3d& eye, const Window&, Parts&);
 
     const Window& window() const { return window_; }
@@ -83,8 +83,8 @@ class WhiteLines {
     /// The mean luminance, weighted as waves are, of a panel without structure.
     double mean() const { return mean_; }
 
-    /// By how much subpixels and black matrix change the light in each square, all sets together, times weights that fall to 0 at
-    /// the window's border: Blackman's along both axes, 1 in the mean.
+    /// The change of light in each square by subpixels and black matrix, all sets together, times weights that fall to 0 at the
+    /// window's border: Blackman's along both axes, 1 in the mean.
     const std::vector<double>& weighted_change() const { return change_; }
 
     /// Standard deviation of a wave's amplitude over mean(), all sets together, if each line's light were chance.

@@ -54,7 +54,7 @@ Interval explained(Interval i, const DepthRun& run) {
     return i;
 }
 
-/// Where both hold: of each end the one nearer to the middle.
+/// The interval common to both: of each end the one nearer to the middle.
 Interval narrower(const Interval& a, const Interval& b) {
     if (a.empty || b.empty) return a.empty ? a : b;
     const auto inner = [](const Limit& l, const Limit& m, bool low) { return (l.place() > m.place()) == low ? l : m; };

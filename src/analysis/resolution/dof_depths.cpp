@@ -11,7 +11,7 @@ namespace {
 constexpr int depths = 31;
 constexpr double least_rows = 16, beyond = 1.25;
 
-/// How far the scene's centre can go behind the lenses and in front of them, depths in mm.
+/// The depths of the scene's centre that are possible behind the lenses and in front of them, mm.
 struct Reach {
     double behind, before;
 };

@@ -14,10 +14,10 @@ struct DepthRun {
     std::string why_low, why_high;
 };
 
-/// Those of the options; else 31 over what theory calls sharp by the lens or by the pixel, and a quarter more, the closer the
-/// nearer to the lenses; the lenses' own plane is one of them. Of depths that are sharp as far as the viewer, or without end behind
-/// the lenses, those to twice the first, or to a quarter of the viewing distance. Cut where the scene would reach the eye, and
-/// where it would look smaller than 16 rows of the camera's picture. Empty: nothing is left.
+/// The depths of the options; otherwise 31 over the depth of field by the lens or by the pixel and a quarter more, denser near
+/// the lenses, whose plane is one of them. Of depths that are sharp as far as the viewer, or without end behind the lenses, those
+/// to twice the first, or to a quarter of the viewing distance. Cut where the scene would reach the eye, and where it would look
+/// smaller than 16 rows of the camera's picture. Empty: nothing is left.
 DepthRun dof_depths(const Subject&);
 
 }  // namespace lfdsim

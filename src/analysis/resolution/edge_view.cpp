@@ -39,7 +39,8 @@ ScreenRect screen_middle(const Display& d, const Geometry& g) {
     return box;
 }
 
-/// What the eye sees of the bars' plane through the middle of the screen; not so long that slanted edges would leave it sideways.
+/// The rectangle of the bars' plane that the eye sees through the middle of the screen; not so long that slanted edges would
+/// leave it sideways.
 ScreenRect seen_box(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
     const ScreenRect m = screen_middle(d, g);
     const double k = scale_to_plane(g, bars.z_mm, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;

@@ -30,7 +30,7 @@ Image mean_picture(Display d, const Subject& s, const SummedPanel& panel, const 
     return std::move(r.image);
 }
 
-/// What 16 lenses fill, about the point (0, 0, z_mm), for an eye at an angle.
+/// A display whose frame 16 lenses fill about the point (0, 0, z_mm), for an eye at an angle.
 Display near_view(const Subject& s, double z_mm, double angle_deg) {
     const Eye eye{angle_deg, s.viewing_distance_mm()};
     Display d = seen_by(s.display(), {eye.x_mm(), 0, eye.z_mm()});

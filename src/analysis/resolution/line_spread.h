@@ -43,19 +43,19 @@ class LineSpread {
     Sets sets_;
 };
 
-/// What one eye sees of a display whose elemental images are those of the nodal pick-up.
+/// The lines of sight of one eye through a display whose elemental images are those of the nodal pick-up.
 class SeenThroughLenses {
   public:
-    /// Of one channel, where it shines and at its wavelengths.
+    /// Traces one channel, where it shines and at its wavelengths.
     SeenThroughLenses(const Subject&, const Vec3d& eye_mm, std::size_t channel);
-    /// Of red, green and blue together, as luminance counts them.
+    /// Joins red, green and blue, weighted as luminance.
     explicit SeenThroughLenses(const std::array<SeenThroughLenses, 3>&);
 
-    /// Where the panel's pixels lie: as described, or shifted at random by up to a pixel, as assembly may leave them. On a screen
-    /// of many lenses the two agree; elsewhere their difference is part of the figure's stated error.
+    /// The position of the panel's pixels: as described, or shifted at random by up to a pixel, as assembly may leave them. On a
+    /// screen of many lenses the two agree; elsewhere their difference is part of the figure's stated error.
     enum class PixelPositions { as_described, anywhere };
 
-    /// In a plane at a height above the panel, below the eye; along a direction.
+    /// The line spread in a plane at a height above the panel, below the eye, along a direction.
     LineSpread spread(double z_mm, const Direction&, PixelPositions) const;
 
   private:

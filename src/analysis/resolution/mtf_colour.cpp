@@ -10,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-/// How far red's or blue's light lies from green's in the mean.
+/// The mean distance of red's or blue's light from green's.
 Estimate from_green(const MtfCurves& m, std::size_t channel) {
     const Estimate &here = m.channels[channel].middle_mm, &green = m.channels[green_channel].middle_mm;
     return {here.value - green.value, std::hypot(here.error, green.error)};

@@ -9,7 +9,7 @@ namespace lfdsim {
 
 inline constexpr std::array<const char*, 3> colour_of_channel{"red", "green", "blue"};
 
-/// What the figures of a measurement hold of theory and fringes where channels differ; null where they do not.
+/// The figures of theory and colour fringes where channels differ; null where they do not.
 Json colours_json(const MtfCurves&);
 
 /// Findings of each channel for one direction, seen on axis, and plots of their curves there and from the side. All at one depth.

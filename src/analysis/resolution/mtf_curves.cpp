@@ -11,7 +11,7 @@
 namespace lfdsim {
 namespace {
 
-/// Of modulation at each frequency. `pixels_anywhere` may be empty.
+/// The errors of modulation at each frequency. `pixels_anywhere` may be empty.
 std::vector<double> errors(const Modulation& m, const std::vector<double>& pixels_anywhere) {
     std::vector<double> found(m.all.size());
     for (std::size_t n = 0; n < found.size(); ++n) {

@@ -11,7 +11,7 @@
 
 namespace lfdsim {
 
-/// What lines of sight of one channel find, and theory; at the frequencies of all.
+/// The MTF of one channel by lines of sight and by theory, at the frequencies of all.
 struct ChannelMtf {
     Modulation modulation;                // empty if it is missing
     std::vector<double> pixels_anywhere;  // as in MtfCurves
@@ -41,7 +41,8 @@ struct MtfCurves {
     double spread_mm;                        // width of the strip that contains 95 % of the light; NaN: no light
     std::vector<ChannelMtf> channels;        // red, green and blue; empty: all are as the luminance
 
-    /// By pictures of slanted edges: red, green, blue; empty: no edge was seen, or too much light lies too far from it.
+    /// The modulation by pictures of slanted edges: red, green, blue; empty: no edge was seen, or too much light lies too far
+    /// from it.
     std::array<Modulation, 3> edges;
     int lenses = 0;  // that the edges crossed
 
@@ -49,14 +50,14 @@ struct MtfCurves {
     /// The error includes the effect of the phases in which this screen's pixels happen to meet its lenses.
     LimitingFrequency below(double level) const;
     LimitingFrequency below(double level, std::size_t channel) const;
-    /// The same of a colour's edges. They are a sample of all the places where edges may be, so the error is at least their
-    /// difference from lines of sight.
+    /// The limiting frequency of a colour's edges. They are a sample of all the places where edges may be, so the error is at
+    /// least their difference from lines of sight.
     LimitingFrequency edges_below(std::size_t channel, double level) const;
     double theory_below(double level) const;
     double theory_below(double level, std::size_t channel) const;
 };
 
-/// What an eye sees through the lenses, of the luminance and of each channel.
+/// The lines of sight of an eye through the lenses, for the luminance and for each channel.
 struct SeenInColours {
     SeenThroughLenses luminance;
     std::vector<SeenThroughLenses> channels;  // red, green and blue; empty: all are as the luminance

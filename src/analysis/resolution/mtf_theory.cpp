@@ -13,8 +13,8 @@ namespace {
 
 const double fwhm_per_sigma = 2 * std::sqrt(2 * std::log(2.));
 
-/// Of slanted strips' light: the sum over lines of sight of paraxial theory, across the strips. One closed form of
-/// SlopeSpread's kind does not do: a diffuser's and a pixel's widths along x and y both count across.
+/// The share of slanted strips' light beside their own images: the sum over lines of sight of paraxial theory, across the strips.
+/// One closed form of SlopeSpread's kind does not do: a diffuser's and a pixel's widths along x and y both count across.
 double strips_astray(const Subject& s, double angle_deg, double distance_mm) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();

@@ -44,10 +44,10 @@ struct Blur {
 /// Share of the light that an eye at this angle and distance sees on other lenses' elemental images, which Blur leaves out.
 double light_astray(const Subject&, double angle_deg, double distance_mm);
 
-/// For an angle of view to the right.
+/// The blur at an angle of view to the right.
 Blur blur(const Display&, const Geometry&, const Theory&, double z_mm, double angle_deg);
 
-/// The same of one channel, in light of its wavelengths, of content that is made for green light.
+/// The blur of one channel, in light of its wavelengths, of content that is made for green light.
 class ChannelBlur {
   public:
     ChannelBlur(const Subject&, std::size_t channel, double z_mm, double angle_deg);

@@ -18,7 +18,7 @@ namespace lfdsim {
 
 /// Parallel edges, nearly upright, that cross a picture from its first row to its last. In pixels from its upper left corner.
 struct Edges {
-    /// One edge.
+    /// One edge of a picture.
     struct EdgeLine {
         double at;    // where it meets row 0
         bool rising;  // bright on its right
@@ -38,9 +38,9 @@ class EdgeSpread {
     /// Pictures of one size. Parts of edges outside the picture are ignored.
     void add(const Edges&, const Image& picture, const Image& white);
 
-    /// For red, green and blue, at frequencies in cycles a pixel, 0 to 1: the modulus of the Fourier transform of the spread
-    /// function's derivative, corrected for the attenuation by the bins and by the differences between them. NaN where there is no
-    /// light. Of all sets but the one numbered `without`.
+    /// The MTF of red, green and blue at frequencies in cycles a pixel, 0 to 1: the modulus of the Fourier transform of the
+    /// spread function's derivative, corrected for the attenuation by the bins and by the differences between them. NaN where
+    /// there is no light. Of all sets but the one numbered `without`.
     std::array<std::vector<double>, 3> mtf(std::span<const double> frequencies, int without = -1) const;
 
   private:
@@ -52,7 +52,7 @@ class EdgeSpread {
     int pictures_ = 0;
 };
 
-/// Where a curve over rising frequencies first falls below a level; NaN if it never does.
+/// The frequency at which a curve over rising frequencies first falls below a level; NaN if it never does.
 double falls_below(std::span<const double> frequencies, std::span<const double> curve, double level);
 
 }  // namespace lfdsim

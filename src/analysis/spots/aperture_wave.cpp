@@ -14,7 +14,8 @@ namespace {
 
 using Corners = ApertureShape::Corners;
 
-/// Of a polygon that is its own mirror image in the origin, so that the mean is real: by Green's theorem a sum over the edges.
+/// The mean over a polygon that is its own mirror image in the origin, so that it is real: by Green's theorem a sum over the
+/// edges.
 double polygon_mean(const Corners& corners, double nu_x, double nu_y) {
     double area = 0, sum = 0;
     const double nu2 = nu_x * nu_x + nu_y * nu_y;
@@ -68,13 +69,13 @@ Corners hexagon(double half) {
     return {{half, -corner / 2}, {half, corner / 2}, {0, corner}, {-half, corner / 2}, {-half, -corner / 2}, {0, -corner}};
 }
 
-/// In chords between equal angles, the sector of each of which has the arc's area.
+/// Adds an arc as chords between equal angles, the sector of each of which has the arc's area.
 void add_arc(Corners& to, double radius, double from, double until, int chords) {
     const double step = (until - from) / chords, outer = radius * std::sqrt(step / std::sin(step));
     for (int k = 0; k <= chords; ++k) to.push_back({outer * std::cos(from + step * k), outer * std::sin(from + step * k)});
 }
 
-/// What of a convex polygon about the origin lies within a circle that cuts all of its corners off, and some of its sides.
+/// The part of a convex polygon about the origin within a circle that cuts all of its corners off, and some of its sides.
 Corners within_circle(const Corners& corners, double radius) {
     constexpr int chords_a_turn = 192;
     std::vector<std::array<double, 2>> sides;  // the angles from which and until which a side is the border

@@ -23,19 +23,20 @@ struct ApertureShape {
     /// strips move light along x' alone.
     double mean(double nu_x, double nu_y) const;
 
-    /// What |mean()| is not above for waves of nu periods per mm or more: its border over its area, over 2 pi nu (Green's theorem).
+    /// The upper bound of |mean()| for waves of nu periods per mm or more: its border over its area, over 2 pi nu (Green's
+    /// theorem).
     double most(double nu) const;
 
     /// Whether a place, from the lens's axis, lies within.
     bool holds(double x, double y) const;
 
-    /// From its least to its greatest place along x' (axis 0) or y' (1); a slit's y' has no meaning.
+    /// The extent from its least to its greatest position along x' (axis 0) or y' (1); a slit's y' has no meaning.
     double extent_mm(std::size_t axis) const;
 
     /// The share of its area that lies below a place along x' (axis 0) or y' (1).
     double below(std::size_t axis, double place) const;
 
-    /// Its corners; of a disk, and of a slit as long as `length_mm`, as they are drawn.
+    /// The corners of its outline; of a disk, and of a slit as long as `length_mm`, as they are drawn.
     Corners corners(double length_mm) const;
 };
 

@@ -34,9 +34,9 @@ struct Spot {
 
 Spot spot_at(const Subject&, const LensField&, double z);
 
-/// How far the centroid of the light of each panel pixel under a lens lands from where the nodal line of content/pickup/pickup.h
-/// goes, at the central depth plane, in images of a panel pixel. Pixels are symmetric about the axis; of more than 96 across or up,
-/// 96 places evenly spread. NaN where no light gets through.
+/// The distance of the centroid of each panel pixel's light from its nodal line (content/pickup/pickup.h), at the central depth
+/// plane, in images of a panel pixel. Pixels are symmetric about the axis; of more than 96 across or up, 96 places evenly spread.
+/// NaN where no light gets through.
 struct Distortion {
     int columns, rows;
     std::vector<double> pixel_images;  // columns x rows, row 0 at the top

@@ -17,7 +17,7 @@ constexpr double most_per_mm = 1e6;  // a nanometre in front of the lens
 constexpr int depth_fan_rays = 1001;
 constexpr double farthest_mm = 1e7;
 
-/// Where a predicate that changes once, from false at `out` to true at `in`, changes.
+/// The point at which a predicate changes, once, from false at `out` to true at `in`.
 template <class Predicate>
 double change(double out, double in, Predicate holds) {
     for (int halved = 0; halved < 120; ++halved) {
@@ -116,7 +116,7 @@ class Teller {
         }
     }
 
-    /// By the pixel, and the same as ends in 1/z.
+    /// Adds the depth of field by the pixel, and its ends in 1/z.
     void by_pixel(const std::string& key, const std::string& diopters, const std::string& what, const Fan& fan, double airy_slope,
                   const SharpRange& theory, const std::string& remark) {
         const SharpDepths depths = where_sharp(fan.all, pixel_slope_, airy_slope);
@@ -142,7 +142,8 @@ class Teller {
         tell(key, what, found, theory, remark);
     }
 
-    /// By the lens: the depths z where the fan is no wider than the pitch, or than where it leaves the lens.
+    /// Adds the depth of field by the lens: the depths z where the fan is no wider than the pitch, or than where it leaves the
+    /// lens.
     void by_lens(const Fan& fan, double pitch_mm, const SharpRange& theory) {
         MeasuredRange found;
         if (fan.all.empty()) {
@@ -169,7 +170,7 @@ class Teller {
     double pixel_slope() const { return pixel_slope_; }
 
   private:
-    /// Of an end, from where its interval's least and greatest have it; an end at the lenses or at the viewer has none.
+    /// The error of an end, from those of the least and the greatest interval; an end at the lenses or at the viewer has none.
     static double error(double at, double least, double most) {
         if (std::isinf(at) || std::isnan(at)) return std::isnan(at) ? nan : 0;
         double error = 0;

@@ -15,7 +15,7 @@
 namespace lfdsim {
 namespace {
 
-/// Of all surfaces at normal incidence: the lens's, and those of the layers that no lens is glued on.
+/// The transmittance of all surfaces at normal incidence: the lens's, and those of the layers that no lens is glued on.
 double transmission(const Display& d, const Geometry& g) {
     if (d.render.fresnel == Fresnel::none) return 1;
     double t = 1;
@@ -29,7 +29,7 @@ double transmission(const Display& d, const Geometry& g) {
     return t;
 }
 
-/// What a line of sight sees that comes down beside the lens, over the panel's luminance.
+/// The luminance of a line of sight that comes down beside the lens, over the panel's.
 double beside(const Display& d, const Geometry& g) {
     if (d.lens.is_thin() || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return 0;
     return d.array.surround == Surround::plate ? transmission(d, g) : 1;
@@ -77,7 +77,7 @@ class RealLens {
     }
 
   private:
-    /// Of pass_lens(): apertures, and the borders of its cell.
+    /// The rules of pass_lens() for one lens: apertures, and the borders of its cell.
     struct Rules : optics::SingleLens<double> {
         bool within(double x, double y, bool ok) const {
             return ok && (display.aperture == Aperture::circle || optics::in_cell(display.lattice, x, y));

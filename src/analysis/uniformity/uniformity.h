@@ -47,8 +47,8 @@ std::vector<double> means(const std::vector<Sums>&);
 
 /// Michelson contrast (max - min) / (max + min); 0 if all is dark.
 double michelson(const std::vector<double>&);
-/// The same of noisy values: seven sets find where the greatest and the least are, the eighth gives their values, each in turn, so
-/// that noise alone makes no contrast.
+/// The contrast of noisy values: seven sets find where the greatest and the least are, the eighth gives their values, each in
+/// turn, so that noise alone makes no contrast.
 Estimate michelson(const std::vector<Sums>&);
 
 std::int64_t uniformity_steps(const Subject&);

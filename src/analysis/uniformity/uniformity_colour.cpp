@@ -43,7 +43,7 @@ BlockLight light_of_block(const ColouredWhite& white, const Subject& s, const Ve
     return block_light;
 }
 
-/// Of the parts that are on the screen; the others have no colour, and are not dark.
+/// The spread of colour over the parts that are on the screen; the others have no colour, and are not dark.
 ColourSpread spread_on_screen(const std::vector<BlockLight>& parts, const std::vector<double>& lenses) {
     std::vector<ColourSums> light;
     std::vector<double> weights;
@@ -123,7 +123,7 @@ std::vector<double> between(const std::vector<double>& angles, double shift) {
     return shifted;
 }
 
-/// By how much the mean over a few angles may miss that over all: each step of the distance lies anywhere between two of them,
+/// The error of the mean over a few angles against that over all: each step of the distance lies anywhere between two of them,
 /// which is a standard deviation of 1/sqrt(12) of an interval; twice that. Dark angles have no distance; steps lead over them.
 double between_angles(std::vector<double> distance) {
     std::erase_if(distance, [](double d) { return !std::isfinite(d); });

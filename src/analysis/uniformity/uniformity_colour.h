@@ -23,7 +23,7 @@ class ColouredWhite {
         double on_screen = 0;
     };
     BlockColour look(const Vec3d& eye, const ScreenParts&, const LensBlock&, std::span<const Choice>) const;
-    /// As EyeRays::more_for().
+    /// The factor by which more lines are needed, as EyeRays::more_for().
     int more_for(const Vec3d& eye) const { return paths_.front().rays.more_for(eye); }
 
   private:
@@ -37,13 +37,13 @@ class ColouredWhite {
     std::vector<ColourPath> paths_;
 };
 
-/// What tell_colour_uniformity() takes: parts of the work, and about how many lines of sight. 0 where colours do not differ.
+/// The work of tell_colour_uniformity(): parts, and about how many lines of sight. 0 where colours do not differ.
 struct ColourWork {
     int parts;
     std::int64_t lines;
 };
 ColourWork colour_work(const Subject&);
-/// Where colours do not differ all distances are 0.
+/// Adds the uniformity of colour to a result; where colours do not differ all distances are 0.
 void tell_colour_uniformity(const Subject&, double viewing_distance_mm, Parts&, Result&);
 
 }  // namespace lfdsim

@@ -13,9 +13,9 @@ constexpr int set_rays = 2048;  // of each set where limits are sought
 /// The share of wrong rays at a place on a search's path, lateral in mm or an inverse distance, by all sets of lines.
 using Along = std::function<Estimate(double)>;
 
-/// How far, from the middle of `places` towards their end (step 1) or start (-1), the share stays at most `most`: bisected between
-/// the last place where it does and the first where it does not. The error reaches to where the share does so less and plus its own
-/// error: far apart where it stays near `most` for long.
+/// The limit up to which, from the middle of `places` towards their end (step 1) or start (-1), the share stays at most `most`:
+/// bisected between the last place where it does and the first where it does not. The error reaches to where the share does so
+/// less and plus its own error: far apart where it stays near `most` for long.
 Limit limit(const std::vector<double>& places, const std::vector<double>& wrong, int step, double most, const Along& wrong_at) {
     const int middle = int(places.size()) / 2, last = step > 0 ? int(places.size()) - 1 : 0;
     const auto at = [&](int k) { return places[std::size_t(k)]; };

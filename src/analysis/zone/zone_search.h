@@ -13,8 +13,8 @@
 
 namespace lfdsim {
 
-/// Of the lines of sight from one eye through the screen the share that is dark (blocked, beside the panel, or on a pixel that no
-/// lens owns), 1 if there are none; and of those that get through a lens whose elemental image has its middle on the panel, NaN if
+/// The dark share of the lines of sight from one eye through the screen (blocked, beside the panel, or on a pixel that no lens
+/// owns), 1 if there are none; and of those that get through a lens whose elemental image has its middle on the panel, NaN if
 /// none does (lenses at the screen's rim may stand half in front of the panel, and their images beside it),
 /// - the wrong share: ends elsewhere than on a pixel of its lens's own elemental image, on another's, so that views repeat, or on
 /// none;

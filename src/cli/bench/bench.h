@@ -25,7 +25,7 @@ struct BenchSettings {
     double angle_deg = 0;               // its camera, turned about the vertical through its target
 };
 
-/// What one run took and how much it handled; the unit is the group's.
+/// The time of one run and the quantity that it handled, in the group's unit.
 struct Run {
     double seconds = 0, count = 0;
 };
@@ -66,7 +66,7 @@ class Bench {
     /// what is done is returned.
     std::vector<Timing> measure(std::string_view stage, const std::vector<Case>&);
     bool cancelled() const { return progress_.cancelled(); }
-    /// For work that is not timed, with a bar of its own.
+    /// The job for work that is not timed, with its own progress bar.
     Job& job() { return progress_; }
 
     void heading(const std::string& text);

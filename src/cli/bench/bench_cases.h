@@ -12,7 +12,7 @@ namespace lfdsim::cli {
 /// pixel: the size of the experiment in the 2019 paper (Guan, Sang et al., Opt. Express 27(20) 29309).
 Display bench_display();
 
-/// What a changed display is called in the tables.
+/// A changed display and its name in the tables.
 struct Duty {
     const char* name;
     void (*change)(Display&);
@@ -20,7 +20,7 @@ struct Duty {
 extern const std::span<const Duty> duties;   // the first changes nothing
 extern const std::span<const Duty> glasses;  // every type of lens in every surround it can have; the first changes nothing
 
-/// The same lens as a prescription, its cap an asphere.
+/// Replaces the lens by a prescription whose cap is an asphere.
 void make_asphere(Display&);
 /// Cylindrical lenses in place of the round ones, as many as cover the panel.
 void make_strips(Display&);

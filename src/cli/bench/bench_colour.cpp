@@ -37,7 +37,7 @@ double bands_error(const Display&, const Display& colour, const Rect& crop, Benc
     return double(greatest);
 }
 
-/// Of a white panel: the mean light of the picture over that with whole pixels, less 1.
+/// The error of a white panel: the mean light of the picture over that with whole pixels, less 1.
 double white_error(const Display& plain, const Display& colour, const Rect& crop, Bench& bench) {
     const auto light = [&](const Display& d) {
         Texels white(d.panel.pixels[0], d.panel.pixels[1]);

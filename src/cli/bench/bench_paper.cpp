@@ -59,7 +59,7 @@ class Child {
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// What it printed. Throws std::runtime_error if it fails; gives up when the job is cancelled.
+    /// Waits for the program and returns its output. Throws std::runtime_error if it fails; gives up when the job is cancelled.
     std::string finish(const Job& job) {
         std::string text;
         for (char part[4096]; !job.cancelled();) {

@@ -104,7 +104,7 @@ void refuse_inputs_in(const std::filesystem::path& folder) {
             if (entry.path().extension() == ending) refuse_input(entry.path());
 }
 
-/// What is finished is kept and reported, whatever becomes of the rest.
+/// A run of measures; finished ones are kept and reported, even if others fail.
 struct Analysis {
     Subject& subject;
     const ResultFolder& folder;
@@ -163,7 +163,7 @@ bool names_measures(const std::string& word) {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).stem(); }
 
-/// What is asked for. Where the first word is a description, MEASURE was left out.
+/// The measures and displays of a command line. Where the first word is a description, MEASURE was left out.
 struct AnalysisRequest {
     std::vector<const Measure*> wanted;
     std::vector<std::string> paths;
@@ -220,7 +220,7 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
     return request;
 }
 
-/// What has become of one display.
+/// The outcome of one display.
 struct Outcome {
     ResultFolder folder;
     Json found = Json::object();

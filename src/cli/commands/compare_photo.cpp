@@ -36,7 +36,7 @@ Corners read_corners(const List& list) {
     return corners;
 }
 
-/// From the display that the picture carries.
+/// The corners by the display that the picture's metadata describes.
 Corners corners_from_display(const std::string& path, const Metadata& about, const Image& view) {
     const auto text = about.find("display");
     if (text == about.end())

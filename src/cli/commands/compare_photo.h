@@ -41,7 +41,7 @@ class PhotoOptions {
     Option difference_ = command_.option("--difference", "FILE", "Picture to write: where the photograph is brighter or darker");
 };
 
-/// Of the option --encoding.
+/// The encoding of the option --encoding.
 inline Encoding encoding_of(const Option& option) { return option.word() == "srgb" ? Encoding::srgb : Encoding::linear; }
 
 }  // namespace lfdsim::cli

@@ -74,7 +74,7 @@ std::string text_of(const Sourced& s) {
     return text;
 }
 
-/// Those of the user's catalogue, or those that ship.
+/// The glasses of the user's catalogue, or those that ship.
 std::vector<Sourced> all_glasses(const std::vector<GlassCatalogue>& catalogues) {
     std::vector<Sourced> all;
     for (const GlassCatalogue& catalogue : catalogues)
@@ -128,7 +128,7 @@ void check_plot(const GlassArguments& args) {
     detail::check_replaceable(path);
 }
 
-/// Of one glass, or of the first few.
+/// Prints the warnings of one glass, or of the first few.
 void warn_of(const GlassCatalogue& catalogue, const std::string& name) {
     constexpr std::size_t most_told = 10;
     std::size_t count = 0;

@@ -52,7 +52,7 @@ struct NewArguments {
     Option lens = command.option("--lens", "plano_convex|ideal", "Kind of lens; default plano_convex").initially("plano_convex");
 };
 
-/// What both kinds of designs are asked for.
+/// Reads the options that both kinds of designs have.
 template <class Request>
 void read_common(const NewArguments& args, Request& request, Faults& faults) {
     faults.of([&] { request.panel_inch = args.panel_inch.number(); });

@@ -24,7 +24,7 @@ class PathOptions {
     CameraPath read() const;
     /// Throws InputError with the file and the pose, or the frame, unless the camera can stand wherever the path leads.
     void check(const CameraPath&, const Display&) const;
-    /// Of one of so many frames: 0000.png.
+    /// The file of one of `frames` frames: 0000.png.
     std::filesystem::path file(const OutputOptions&, std::int64_t frame, std::int64_t frames) const;
     bool resume() const { return resume_; }
     bool replace() const { return replace_; }
@@ -38,7 +38,7 @@ class PathOptions {
     Flag replace_ = command_.flag("--replace", "Remove frames there that were made by another command or from other files");
 };
 
-/// What all frames share.
+/// The input that all frames share.
 struct PathWork {
     const PathOptions& options;
     const OutputOptions& output;

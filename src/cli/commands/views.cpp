@@ -60,7 +60,7 @@ struct ViewsArguments {
     bool of_display() const { return of_what.text() == "display"; }
 };
 
-/// Where the views go, and how many there are.
+/// The output of the views, and their number.
 struct Target {
     bool quilt = false;
     QuiltName name{};  // of a quilt

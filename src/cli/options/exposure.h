@@ -18,8 +18,8 @@ class ExposureOption {
     /// Throws InputError for anything but a positive number or "auto".
     void check() const;
 
-    /// By what the picture of such options is multiplied; nothing without the option. "auto" renders a white panel, and makes its
-    /// mean over the screen 1. Throws InputError where the picture shows no light of the screen.
+    /// The factor of the picture's light; nothing without the option. "auto" renders a white panel, and makes its mean over the
+    /// screen 1. Throws InputError where the picture shows no light of the screen.
     std::optional<double> factor(const Display&, const Geometry&, RenderOptions, Job&) const;
 
     static void apply(double factor, Rendering&);

@@ -32,7 +32,7 @@ class GridOptions {
         "write (default of quilts); or each in the middle of one of n equal parts, at ((i + 1/2)/n - 1/2) A");
 };
 
-/// Where a grid is placed that says nothing of it.
+/// The position of a grid that does not state it.
 ViewsPlace views_place(const Display&, const Geometry&);
 
 /// The grid in words, and as JSON.
@@ -44,7 +44,7 @@ class ViewsOption {
   public:
     explicit ViewsOption(Command command) : command_(command) {}
     bool given() const { return views_.given(); }
-    /// To be called before long work: finds out what there is. No output may replace any of it. Throws InputError.
+    /// Finds out what views there are; to be called before long work. No output may replace any of it. Throws InputError.
     void check();
     struct Made {
         FieldPicture field;

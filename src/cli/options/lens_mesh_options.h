@@ -18,7 +18,7 @@ class LensMeshOptions {
     void check() const;
     /// The display's lens in triangles, if it is asked for. Throws InputError if it cannot be made.
     std::optional<MeshedLens> lens(const Display&, const Geometry&) const;
-    /// What it is, as a rendering says of itself.
+    /// The description of a meshed lens in a rendering's output.
     std::string text(const MeshedLens&) const;
     Json json(const MeshedLens&) const;
 

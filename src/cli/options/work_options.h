@@ -32,7 +32,7 @@ class WorkOptions {
     Flag json_ = command_.flag("--json", "Print results as JSON");
 };
 
-/// --crop.
+/// The option --crop.
 class CropOption {
   public:
     explicit CropOption(Command command)
@@ -45,7 +45,7 @@ class CropOption {
     Option crop_;
 };
 
-/// --device.
+/// The option --device.
 class DeviceOption {
   public:
     explicit DeviceOption(Command command)

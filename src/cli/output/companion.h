@@ -5,8 +5,8 @@
 
 namespace lfdsim::cli {
 
-/// To be called before long work. Throws InputError if the file cannot be written, or if it exists, is not `own`, which is to say
-/// that nothing is lost with it, and is not to be replaced.
+/// Checks a file that is written beside an output; to be called before long work. Throws InputError if the file cannot be
+/// written, or if it exists, is not `own` (its replacement loses nothing), and is not to be replaced.
 void check_companion(const std::filesystem::path&, bool own, bool replace);
 
 /// Whether a text file has exactly this text.

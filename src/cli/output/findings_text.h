@@ -9,7 +9,8 @@ namespace lfdsim::cli {
 /// A measure's findings as lines, theory beside measurement; `measured` is what its NAME.json holds.
 std::string table_of(const Json& measured);
 
-/// What differences() found: a line for each figure with what all displays have, and whether the others differ from the first.
+/// The table of what differences() found: a line for each figure with what all displays have, and whether the others differ from
+/// the first.
 std::string table_of_differences(const Json&);
 
 }  // namespace lfdsim::cli

@@ -15,7 +15,8 @@ class MappingOption {
   public:
     explicit MappingOption(Command command) : command_(command) {}
     bool given() const { return !mapping_.empty(); }
-    /// To be called before long work. Throws InputError unless all three files can be written, and none is `output`.
+    /// Checks the three files; to be called before long work. Throws InputError unless all three files can be written, and none
+    /// is `output`.
     void check(const std::string& output) const;
     void write(const Display&, const Geometry&, int threads) const;
 

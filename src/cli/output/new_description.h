@@ -12,7 +12,7 @@ class NewDescription {
     explicit NewDescription(Command command)
         : path_(command.option("-o,--output", "FILE", "Description to write: .toml").required()),
           force_(command.flag("--force", "Replace an existing file")) {}
-    /// To be called before work. Throws InputError unless a description can be written there.
+    /// Checks the output; to be called before work. Throws InputError unless a description can be written there.
     void check() const;
     /// Writes the text, which has to read back as a description; the file is whole or not there.
     void write(const std::string& text) const;

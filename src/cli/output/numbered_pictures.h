@@ -8,8 +8,8 @@
 
 namespace lfdsim::cli {
 
-/// What tells a picture that the same command has made, but for what it does with pictures that are there, from any other: each
-/// carries the program's version, the command, the description, and "shown", that of what is in it.
+/// Numbered pictures of one command, which can be distinguished from those of any other: each carries the program's version, the
+/// command, the description, and "shown", that of what is in it.
 struct NumberedPictures {
     std::filesystem::path folder;
     std::int64_t count = 0;

@@ -38,8 +38,8 @@ inline constexpr const char* incomplete_mark = "incomplete";
 /// file is named.
 void check_input(const std::string& argument, const std::string& path);
 
-/// To be called before long work, and after the inputs are known. From here on a signal removes what is partly written. Throws
-/// InputError unless a picture can be written at `path`, which the option gave, without replacing an input.
+/// Checks an output; to be called before long work, and after the inputs are known. From here on a signal removes what is partly
+/// written. Throws InputError unless a picture can be written at `path`, which the option gave, without replacing an input.
 void check_output(const std::string& path, const std::string& option = "--output");
 
 /// -o and --bits.
@@ -48,7 +48,7 @@ class OutputOptions {
     OutputOptions(Command command, const std::string& kinds)
         : path_(command.option("-o,--output", "FILE", "Picture to write: " + kinds).required()),
           bits_(command.option("--bits", "8|16", "Bits per channel of a .png; default 8")) {}
-    /// To be called before long work. Throws InputError unless the picture can be written there in that depth.
+    /// Checks the output; to be called before long work. Throws InputError unless the picture can be written there in that depth.
     void check() const;
     /// Throws InputError unless pictures of such a file name (".png" alone will do) can have that depth.
     void check_bits(const std::filesystem::path& name) const;
@@ -68,7 +68,7 @@ class OutputOptions {
 
 /// Says that the work was stopped: what has been saved, or nothing. Throws Interrupted.
 [[noreturn]] void end_interrupted(const std::string& saved);
-/// The same of a folder that holds `finished`, "3 of 9 views", and whether a run with --resume goes on there.
+/// Ends an interrupted run whose folder contains `finished`, "3 of 9 views"; states whether a run with --resume continues there.
 [[noreturn]] void end_interrupted(const std::filesystem::path& folder, const std::string& finished, bool resumable = true);
 
 }  // namespace lfdsim::cli

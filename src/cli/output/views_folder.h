@@ -5,8 +5,8 @@
 
 namespace lfdsim::cli {
 
-/// What it gets: view_0000.png ..., depth_0000.exr with each if there are depth maps, and views.toml, which is written last: a
-/// folder with it is complete.
+/// A folder of views: view_0000.png ..., depth_0000.exr with each if there are depth maps, and views.toml, which is written last:
+/// a folder with it is complete.
 class ViewsFolder {
   public:
     /// `kind`: "png", "exr" or "npy"; `how`: as of views_toml(); `description`, `shown`: those of NumberedPictures.

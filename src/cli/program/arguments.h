@@ -21,7 +21,7 @@ double number(std::string_view option, std::string_view text);
 /// "100", "1e3"; low .. high, both allowed.
 std::int64_t whole_number(std::string_view option, std::string_view text, std::int64_t low, std::int64_t high);
 
-/// As many numbers with commas between as the example has: "0,-300,1800". `form` names them: "FROM,TO,STEP".
+/// Parses as many numbers, separated by commas, as the example has: "0,-300,1800". `form` names them: "FROM,TO,STEP".
 std::vector<double> numbers(std::string_view option, std::string_view text, std::string_view example, std::string_view form = {});
 
 /// "3840x2160": columns and rows, each 1 or more.
@@ -30,7 +30,7 @@ std::array<std::int64_t, 2> size(std::string_view option, std::string_view text)
 /// "X0,Y0,X1,Y1": columns X0 .. X1-1 and rows Y0 .. Y1-1 of a frame of width x height pixels; at least one pixel.
 Rect rectangle(std::string_view option, std::string_view text, std::int64_t width, std::int64_t height);
 
-/// One of `allowed`.
+/// Parses one of the words `allowed`.
 std::string word(std::string_view option, std::string_view text, const std::vector<std::string>& allowed);
 
 /// Runs the parts of reading a command line and gathers what is wrong with each, so that all of it is told at once.
@@ -44,7 +44,7 @@ class Faults {
             all_.insert(all_.end(), e.problems.begin(), e.problems.end());
         }
     }
-    /// The same where the option has a value.
+    /// Runs the part of an option that was given.
     template <class Part>
     void of(const Option& option, Part part) {
         if (!option.empty()) of(part);

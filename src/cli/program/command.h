@@ -15,7 +15,7 @@ class Option;
 
 namespace lfdsim::cli {
 
-/// What is on the command line of an option or a positional argument. Copies are handles of the same one.
+/// The words of an option or a positional argument on the command line. Copies refer to the same ones.
 class Given {
   public:
     bool given() const;                                // even if its text is empty
@@ -86,7 +86,7 @@ class Command {
     std::vector<std::string> words() const;
 
     std::string name() const;
-    /// Of an option by its name with dashes: whether the command has it, whether it was given, and with which words.
+    /// Queries of an option by its name with dashes: whether the command has it, whether it was given, and with which words.
     bool knows(const std::string& option) const;
     bool given(const std::string& option) const;
     std::vector<std::string> values(const std::string& option) const;
@@ -103,13 +103,13 @@ struct CommandSpec {
     std::function<std::function<void()>(Command)> run;
 };
 
-/// For CommandSpec::run: a struct of options, made of the command, and what is done with it.
+/// Makes a CommandSpec::run of a struct of options, which is made of the command, and a function that uses it.
 template <class Arguments>
 std::function<std::function<void()>(Command)> with_options(void (*run)(const Arguments&)) {
     return [run](Command command) { return [run, args = Arguments{command}] { run(args); }; };
 }
 
-/// What the command line of the program can be.
+/// The commands and options of the program's command line.
 class CommandLine {
   public:
     CommandLine(const std::string& description, const std::string& name, const std::string& version, const std::string& footer);

@@ -10,7 +10,7 @@
 namespace lfdsim::cli {
 namespace {
 
-/// Of options, or of their values ("--device cuda": all that start so). A rule is for the commands that have both options.
+/// A rule for options, or for their values ("--device cuda": all that start so). It is for the commands that have both options.
 struct Rule {
     std::vector<std::string_view> idle;
     std::string_view beside;

@@ -25,7 +25,7 @@ struct Misuse {
 /// first is not such a number, or the only one. `form`: what the option's value is in help, "X,Y,Z".
 std::vector<std::string> spaced_numbers(const std::string& form, std::span<const std::string> after);
 
-/// That these words are to be one.
+/// The error of a value that was given as several words.
 InputError spaced_error(const std::string& option, const std::string& form, const std::vector<std::string>& numbers);
 
 /// Unknown commands and options with the nearest known one, values that are missing, and where to find help.

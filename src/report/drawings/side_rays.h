@@ -15,7 +15,7 @@ struct SideRay {
     double y_at(double other_z) const { return y + dy / dz * (other_z - z); }
 };
 
-/// From (y, z) towards another point.
+/// The ray from (y, z) towards another point.
 SideRay side_ray(double y, double z, double to_y, double to_z);
 
 struct SidePath {

@@ -63,7 +63,7 @@ inline void draw_path(SvgDrawing& drawing, const SideScale& scale, const SidePat
     drawing.path(points, style);
 }
 
-/// From a point of the diffuser at height y: the eye's ray turned by `turn` radians towards +y.
+/// The eye's ray from a point of the diffuser at height y, turned by `turn` radians towards +y.
 inline SideRay scattered(const Display& d, double y, double z, double turn) {
     const Vec3d& eye = d.camera.position_mm;
     const double most = 1.55, angle = std::clamp(std::atan2(eye[1] - y, eye[2] - z) + turn, -most, most);  // still downwards

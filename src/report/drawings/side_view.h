@@ -12,8 +12,8 @@ struct SideFrame {
     double left, top, width, height;  // of the box
 };
 
-/// From the panel to the eye, in the plane x = 0: panel, lenses, diffuser, central depth plane with its marginal planes; rays from
-/// the eye back through the diffuser to the panel, and one pixel's light on its way to its image.
+/// The drawing from the panel to the eye, in the plane x = 0: panel, lenses, diffuser, central depth plane with its marginal
+/// planes; rays from the eye back through the diffuser to the panel, and one pixel's light on its way to its image.
 std::string side_view_svg(const Subject&, SideFrame* = nullptr);
 
 /// A few lenses near the middle, with their true surfaces, the gap, what is between them, and the same rays. In the array's own

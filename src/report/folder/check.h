@@ -10,11 +10,11 @@
 
 namespace lfdsim {
 
-/// What is wrong with a display, the worst first: what tracing says of it (analysis/core/verdicts.h), advice (checks/advice.h).
+/// The faults of a display, the worst first: verdicts by tracing (analysis/core/verdicts.h), then advice (checks/advice.h).
 std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, const Theory&,
                                              const std::optional<Vec3d>& model_half_size_mm = std::nullopt);
 
-/// The same with what only its content's files say (their size, or that they cannot be read), and doubts of its glasses.
+/// Those faults with the faults of its content's files (their size, or that they cannot be read) and of its glasses.
 std::vector<std::string> worth_knowing(const Display&, const Geometry&, const Theory&);
 
 /// Every key, every length, the theory, why figures are undefined, and what is worth knowing: what `lfdsim check --json` prints.

@@ -9,7 +9,7 @@
 
 namespace lfdsim {
 
-/// One of the panel's channels, at its own wavelength.
+/// The theory of one of the panel's channels, at its wavelength.
 struct ChannelTheory {
     const char *key, *name;  // "r", "red"
     double wavelength_nm, focal_length_mm, gap_mm, central_depth_mm;

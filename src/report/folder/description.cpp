@@ -97,7 +97,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g) {
 
 namespace {
 
-/// Of each channel the largest of all pixels of a cell; none without subpixels.
+/// The lateral shift of each channel, the largest of all pixels of a cell; none without subpixels.
 std::vector<double> colour_shifts_mm(const Display& d, const Theory& t) {
     if (d.panel.subpixels == SubpixelLayout::none) return {};
     const std::array<std::int64_t, 2> cell = subpixel_cell(d.panel).size;
@@ -127,7 +127,7 @@ bool fills_cells(const Display& d, const Geometry& g) {
            g.pupil.radius_mm >= outer_radius_mm(d.array) * (1 - 1e-9);
 }
 
-/// Which depths are sharp, named as `analyze dof` names them, and the finest detail as the eye sees it.
+/// The sharp depths, named as in `analyze dof`, and the finest detail as the eye sees it.
 std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory& t) {
     constexpr const char* inside = "the camera is inside the display or behind it";
     const double eye = eye_distance_mm(d), z = g.content_depth_mm;

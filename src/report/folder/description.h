@@ -33,7 +33,7 @@ struct Figure {
 };
 std::vector<Figure> figures(const Display&, const Geometry&);
 std::vector<Figure> figures(const Display&, const Geometry&, const Theory&);
-/// How far the errors of single lenses go, those of the table and those drawn together; none where there are no such errors.
+/// The largest errors of single lenses, those of the table and those drawn together; none where there are no such errors.
 std::vector<Figure> largest_errors(const Display&, const Geometry&);
 
 Json to_json(const std::vector<Setting>&);  // {"panel": {"pixels": ...}, ...}

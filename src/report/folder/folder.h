@@ -39,7 +39,7 @@ class ResultFolder {
 
     /// The name of the report in a folder of results.
     static constexpr const char* report_name = "report.html";
-    /// What tells that lfdsim has written a report, in its head.
+    /// The mark in a report's head that lfdsim has written it.
     static constexpr const char* report_mark = "<meta name=\"generator\" content=\"lfdsim\">";
     /// Throws InputError if there is a report that does not have it.
     static void keep_report_apart(const std::filesystem::path& folder, bool replace);

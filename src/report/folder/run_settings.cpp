@@ -38,7 +38,7 @@ Json content_stamp(const Display& display) {
 
 namespace {
 
-/// What tells evenly spaced values from others; of others all of them.
+/// Evenly spaced values as first, last and count; others as a list.
 Json told(const std::vector<double>& values) {
     if (values.empty()) return Json();
     const double step = (values.back() - values.front()) / double(std::max<std::size_t>(values.size() - 1, 1));

@@ -7,9 +7,9 @@
 
 namespace lfdsim {
 
-/// What tells that a file has changed since; of a name that is no file's, the name alone.
+/// The stamp of a file, which changes with it; of a name that is no file's, only the name.
 Json stamp(const std::string& file);
-/// The same of what a display shows: of its model, or a list of its objects' files.
+/// The stamps of a display's content: of its model, or a list of its objects' files.
 Json content_stamp(const Display&);
 
 /// The settings of a ResultFolder for the measures of a subject.

@@ -31,7 +31,7 @@ bool holds(const std::vector<ReportedFigure>& shown, const Measure* m) {
 
 std::string name_of(const Measure* m) { return fmt::format("{} ({})", escaped(m->title), escaped(m->name)); }
 
-/// Which of the wanted measures are missing, and why; empty: none.
+/// The wanted measures that are missing, with the reasons; empty: none.
 std::string missing_measures(const std::vector<ReportedFigure>& shown, const ReportAbout& about) {
     std::string why, names;
     for (const auto& [m, what] : about.failed)
@@ -51,8 +51,8 @@ constexpr const char* contents =
     "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#verdict\">In short</a></li>\n<li><a href=\"#summary\">All figures</a></li>\n"
     "<li><a href=\"#display\">The display</a></li>\n<li><a href=\"#settings\">Settings</a></li>\n</ul></nav>\n";
 
-/// What is worth knowing of the design, what each measure found first, and pictures: on the first screen, before all tables and
-/// plots.
+/// The summary: warnings of the design, the first finding of each measure, and pictures, on the first screen, before all tables
+/// and plots.
 std::string verdict(const Subject& subject, const ResultFolder& folder, const std::vector<ReportedFigure>& shown) {
     std::string found, doubts, pictures;
     for (const ReportedFigure& s : shown) {

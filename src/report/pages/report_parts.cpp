@@ -65,7 +65,7 @@ std::string plots(const ResultFolder& folder, const Json& list) {
     return html;
 }
 
-/// With at most so many columns; 0: as they are.
+/// The pictures with at most `most` columns; 0: as they are.
 std::string pictures(const ResultFolder& folder, const Json& list, int most) {
     std::string html;
     for (const Json& entry : list)

@@ -23,8 +23,8 @@ std::string headline_row(const Json& report);
 /// The first pictures of a measure, small, as links to its section. Empty if there are none.
 std::string glance(const ResultFolder&, const Json& measured);
 
-/// What is shown when a reader asks for it, and on paper. It needs no script: the switch stands before what it opens, and a link to
-/// the section opens it, too.
+/// A part that is shown when a reader opens it, and on paper. It needs no script: the switch is before what it opens, and a link
+/// to the section opens it, too.
 std::string folded(const std::string& summary, const std::string& html);
 
 /// Title, meaning, source, remarks, plots, pictures and all figures of one measure, from its NAME.json.

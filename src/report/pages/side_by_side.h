@@ -22,8 +22,9 @@ struct MeasuredDisplay {
 /// display from the first; "more_than_errors" is whether it exceeds the sum of both errors, null where an error is not stated.
 Json differences(std::span<const MeasuredDisplay>);
 
-/// The same as a page, with plots and pictures of the same measure next to each other; like report_html() a single file, except for
-/// links to the reports in the subfolders. `missing`: a sentence on what could not be measured; empty: nothing is missing.
+/// The comparison as a page, with plots and pictures of the same measure next to each other; like report_html() a single file,
+/// except for links to the reports in the subfolders. `missing`: a sentence on what could not be measured; empty: nothing is
+/// missing.
 std::string side_by_side_html(std::span<const MeasuredDisplay>, const Json& differences, const std::string& command,
                               const std::string& missing);
 

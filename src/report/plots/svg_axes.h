@@ -10,13 +10,14 @@ namespace lfdsim {
 /// A range of numbers with ticks at multiples of 1, 2 or 5 times a power of ten.
 class PlotAxis {
   public:
-    /// With at most about `ticks` ticks. A range without width is widened; low > high means an empty range, shown as 0 .. 1.
+    /// An axis with at most about `ticks` ticks. A range without width is widened; low > high means an empty range, shown as 0 ..
+    /// 1.
     PlotAxis(double low, double high, int ticks);
 
     double low() const { return low_; }
     double high() const { return high_; }
     std::vector<double> ticks() const;
-    /// As many decimals as the step needs, a true minus sign.
+    /// The text of a tick: as many decimals as the step needs, a true minus sign.
     std::string label(double tick) const;
     /// 0 at low, 1 at high.
     double share(double value) const { return (value - low_) / (high_ - low_); }

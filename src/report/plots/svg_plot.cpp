@@ -17,7 +17,7 @@ constexpr const char* colours[] = {"#1f7fc0", "#d55e00", "#009e73", "#b0508a", "
 constexpr const char* dashes[] = {"", " stroke-dasharray=\"8 4\"", " stroke-dasharray=\"2 3\"", " stroke-dasharray=\"9 3 2 3\""};
 constexpr const char* mark_style = "stroke=\"currentColor\" stroke-opacity=\"0.6\" stroke-dasharray=\"5 4\"";
 
-/// Of curves that are about a channel of the panel.
+/// The colours of curves that are about a channel of the panel.
 constexpr const char* channel_colours[] = {"#d64545", "#2e9e55", "#3f78d8"};
 
 const char* colour_of(const Series& s, std::size_t k) {
@@ -165,7 +165,7 @@ void draw_bars(SvgDrawing& drawing, const PlotFrame& frame, const std::vector<Pl
     }
 }
 
-/// The same scale along both: the axis that would be shown larger is widened. Room is left at the borders.
+/// Gives both axes the same scale: the axis that would be shown larger is widened. Room is left at the borders.
 void make_equal(Ranges& r, double wide, double high) {
     const double per_pixel = 1.06 * std::max((r.x.high - r.x.low) / wide, (r.y.high - r.y.low) / high);
     const auto widen = [&](PlotRange& range, double pixels) {

@@ -100,7 +100,7 @@ class Lister {
         });
     }
 
-    /// Where there is no diffuser, one is suggested, after the preceding table.
+    /// Adds a suggested diffuser where there is none, after the preceding table.
     void add_diffuser() {
         Json all = std::exchange(list_, Json::array());
         trial_.diffuser = suggested_diffuser_;

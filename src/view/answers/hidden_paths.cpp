@@ -34,7 +34,7 @@ bool begins_a_path(std::string_view json, std::size_t i) {
     return is_one_of(before, " \"'`:;,([{>|=");
 }
 
-/// Where a path that begins at i ends. What is a text from its first character on may have blanks in its folders' names.
+/// The end of a path that begins at i. What is a text from its first character on may have blanks in its folders' names.
 std::size_t end_of_path(std::string_view json, std::size_t i) {
     const bool blanks = i > 0 && json[i - 1] == '"' && (i < 2 || json[i - 2] != '\\');
     std::size_t end = i;

@@ -11,8 +11,8 @@ namespace lfdsim::view {
 /// readers, the command to copy, descriptions that name files elsewhere), so they are taken out of every message where it is sent.
 class HiddenPaths {
   public:
-    /// Of a path in the served folder the folder is left out. Of other absolute paths only the last part is left, as in
-    /// "…/tablet.toml"; `others` are folders that are known by name, so that their own parts may have any characters.
+    /// Hides folders in messages. The served folder is left out of the paths in it. Of other absolute paths only the last part is
+    /// left, as in "…/tablet.toml"; `others` are folders that are known by name, so that their own parts may have any characters.
     HiddenPaths(const std::filesystem::path& served, const std::vector<std::filesystem::path>& others);
 
     /// A message in JSON without absolute paths.

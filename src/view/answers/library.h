@@ -10,7 +10,7 @@
 
 namespace lfdsim::view {
 
-/// What the program was started with; paths as on the command line, not restricted to the folder.
+/// The arguments that the program was started with; paths as on the command line, not restricted to the folder.
 struct Start {
     std::filesystem::path display;
     std::vector<std::string> set;  // --set of the command line, before those of a page
@@ -33,7 +33,7 @@ class Library {
     /// not a plain file, does not exist, or is of another kind, by its ending; of descriptions, if it is not meant as one. Errors
     /// tell nothing of what is in such a file.
     std::filesystem::path file(const std::string& name, FileKind) const;
-    /// The same for a file to be made. Throws InputError for endings other than .toml.
+    /// The file that a page names, to be made. Throws InputError for endings other than .toml.
     std::filesystem::path new_file(const std::string& name) const;
 
     /// Names of files that a page may name, '/' between folders, sorted: at most 1000, six folders deep, hidden ones left out.

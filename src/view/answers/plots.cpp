@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t picture_width = 320, most_panel_pixels = std::int64_t(7680) * 4320;
 constexpr int angles_each_side = 12, spot_depths = 161, spot_rays = 301;
 
-/// The same display, seen from its distance on the axis in small pictures that just contain the panel.
+/// The display, seen from its distance on the axis in small pictures that just contain the panel.
 Display small(Display d) {
     const double distance = length(d.camera.position_mm);
     d.camera = {};

@@ -72,7 +72,7 @@ std::vector<SideRay> turned(const Display& d, const Geometry& g, const SideRay& 
     return rays;
 }
 
-/// How much of the panel's height the diffuser's cone covers, and through how many rows of lenses.
+/// The part of the panel's height that the diffuser's cone covers, and the number of rows of lenses.
 std::string cone(const Display& d, const Geometry& g, const SideRay& sight) {
     if (!d.diffuser) return "";
     struct PanelSpan {

@@ -36,7 +36,7 @@ class TemporaryFile {
         }
         if (fsync(descriptor_) != 0) fail(path_);
     }
-    /// Only link() is sure not to replace a file that was made in the meantime.
+    /// Gives the file its name. Only link() is sure not to replace a file that was made in the meantime.
     void become(const std::filesystem::path& path, bool overwrite) {
         const int failed = overwrite ? rename(path_.c_str(), path.c_str()) : link(path_.c_str(), path.c_str());
         if (failed && errno == EEXIST)

@@ -10,7 +10,7 @@ namespace {
 
 Slider about(double middle, double reach) { return {middle - reach, middle + reach, 0}; }
 
-/// What assembly and moulds may be off by.
+/// The slider of an error of assembly or moulds.
 Slider of_error(std::string_view path, double pitch) {
     if (path == "errors.shift_mm") return about(0, pitch);
     if (path == "errors.gap_mm" || path == "errors.bow_mm") return about(0, 0.25 * pitch);

@@ -48,7 +48,7 @@ export class Drawings {
   age() {
     this.place.classList.toggle("old", this.drawn !== "" && this.drawn !== this.optical());
   }
-  /// To be called at rest; with `sharp` when the sharp picture has come, since plots take long.
+  /// Refreshes the drawing; to be called at rest; with `sharp` when the sharp picture has come, since plots take long.
   async refresh(sharp = true) {
     this.age();
     const name = this.open, of = this.optical(), question = questions[name];
@@ -75,7 +75,7 @@ export class Drawings {
     this.age();
     this.draw_fan();
   }
-  /// As large as there is room for, but never with smaller text than can be read: then it can be scrolled.
+  /// Fits the drawing to its room, but not to text too small to read: then it can be scrolled.
   fit() {
     const svg = this.place.querySelector("svg"), [, , width, height] = (svg?.getAttribute("viewBox") ?? "").split(" ").map(Number);
     if (!(width > 0 && height > 0)) return;
@@ -111,7 +111,7 @@ export class Drawings {
     }
     this.probing = false;
   }
-  /// With two eyes a point is not a single line of sight.
+  /// Silences the probe: with two eyes a point is not a single line of sight.
   hush(silent) {
     this.silent = silent;
     if (!silent) return;

@@ -39,7 +39,8 @@ export class Problems {
     this.list = [...same.values()];
     this.show();
   }
-  /// To be called for a frame or valid display with that id. Clears a moment later, so that a lasting problem stays on the page.
+  /// Clears the problems of an id; to be called for a frame or valid display with that id. It does so a moment later, so that a
+  /// lasting problem stays on the page.
   right(id) {
     if (id <= this.id || !this.list.length) return;
     clearTimeout(this.timer);

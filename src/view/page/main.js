@@ -245,7 +245,7 @@ colour();
 show_state();
 buttons();
 
-/// For tests: the state that is wanted, and what was shown.
+/// Gives tests the state that is wanted, and what was shown.
 window.lfdsim = {
   state: () => structuredClone(store.now),
   controls: () => Object.fromEntries((resolved?.controls ?? []).map((c) => [c.key, c.value])),

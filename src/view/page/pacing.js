@@ -15,7 +15,7 @@ export class Pacing {
     this.dirty = false;
     this.waiting = false;
   }
-  /// To be called when something changed at that time; `moving`: more is about to come.
+  /// Asks for a new frame; to be called when something changed at that time; `moving`: more is about to come.
   wish(moving, time) {
     this.event = time;
     this.dirty = true;
@@ -49,7 +49,7 @@ export class Pacing {
     this.sent.set(++this.id, { at: now, event: this.event ?? now, moving });
     for (const id of this.sent.keys()) if (id < this.id - 50) this.sent.delete(id);
   }
-  /// To be called when a frame or a refusal came for that id.
+  /// Notes that a frame or a refusal came for that id.
   answer(id) {
     this.answered = Math.max(this.answered, id);
   }
@@ -59,7 +59,7 @@ export class Pacing {
     for (const older of this.sent.keys()) if (older < id) this.sent.delete(older);
     return known;
   }
-  /// For a new connection, which has no state yet.
+  /// Starts again for a new connection, which has no state yet.
   again() {
     this.answered = this.id;
     this.dirty = true;

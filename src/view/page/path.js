@@ -55,7 +55,7 @@ export class Path {
     path_says("Recording: move the eye.");
     this.buttons();
   }
-  /// To be called when the eye may have moved.
+  /// Records the eye's position; to be called when it may have moved.
   note() {
     if (this.recording === null) return;
     const time_s = Math.round(performance.now() - this.recording) / 1000, last = this.poses.at(-1), { eye } = this.store.now;

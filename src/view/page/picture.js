@@ -10,7 +10,7 @@ export function lanes_of(state) {
   return [...eyes, ...({ none: [], beside: ["photograph"], wipe: ["photograph"], difference: ["difference"] }[state.compare])];
 }
 
-/// With one eye the wipe lays the photograph over the picture; with two the photograph is beside them.
+/// Whether the wipe is in use: with one eye it lays the photograph over the picture; with two the photograph is beside them.
 export const wiped = (state) => state.compare === "wipe" && state.layout === "one";
 
 export class Picture {

@@ -99,7 +99,7 @@ export class Store {
     // Relative, so that the token in the address stays.
     history.replaceState(null, "", "#" + encodeURIComponent(JSON.stringify(this.now)));
   }
-  /// To be called with the program's message of what it was started with.
+  /// Takes the program's message about what it was started with.
   started(hello) {
     if (this.now.started === hello.display) return;
     this.now = this.known = { ...fresh(), started: hello.display, eye: hello.eye_mm };

@@ -33,7 +33,7 @@ class Drawing {
     bool wants_fine() const;
     /// Full size, as few samples as coarse() takes, the true panel.
     Frames fine(Job&);
-    /// The same picture as lfdsim render.
+    /// The final picture, the same as that of lfdsim render.
     Frames final(Job&);
     /// The final picture as an OpenEXR file; two eyes' pictures are the file's picture and its layer "right".
     DrawnFrame exr(std::int64_t id, Job&);

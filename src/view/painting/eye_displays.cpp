@@ -9,7 +9,7 @@
 namespace lfdsim::view {
 namespace {
 
-/// What a panel image was made from, if from anything that the description names.
+/// The model that a panel image was made from, if the description names one.
 std::string described_model(const Display& display) {
     return display.content.objects.empty() ? display.content.model : std::string(scene_of_objects);
 }

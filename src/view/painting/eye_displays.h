@@ -23,8 +23,8 @@ struct EyeDisplay {
 /// One for each eye, the left one first. Throws InputError.
 std::vector<EyeDisplay> seen(const Library&, const Wanted&);
 
-/// The same with a panel of `divisor` times fewer columns and rows, of larger pixels: its elemental images are close to the true
-/// ones. Nothing where such a display is not valid. divisor >= 1.
+/// The display with a panel of `divisor` times fewer columns and rows, of larger pixels: its elemental images are close to the
+/// true ones. Nothing where such a display is not valid. divisor >= 1.
 std::optional<EyeDisplay> with_coarse_panel(const EyeDisplay&, int divisor);
 
 /// The fastest view of the same: columns and rows times `scale`, 0 .. 1, the fewest possible samples, and neither pixel filter nor

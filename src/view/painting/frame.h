@@ -24,7 +24,7 @@ struct FrameHeader {
 
 /// JPEG, of quality 80 for coarse and 90 for fine, or PNG for final. Throws what the job's advance() throws.
 std::string picture_frame(const FrameHeader&, const Image& light, Job&);
-/// The same from sRGB codes, three a pixel.
+/// A frame from sRGB codes, three a pixel.
 std::string codes_frame(const FrameHeader&, const std::vector<std::uint8_t>& codes, Job&);
 /// OpenEXR, with a second picture as the layer "right" where there is one.
 std::string exr_frame(const FrameHeader&, const Image& light, const Image* right, Job&);

@@ -45,7 +45,7 @@ class PainterJob : public Job {
     std::atomic<int> told_{0};
 };
 
-/// For writers, which do not check cancelled(): throws Stopped from advance() when the work is to end.
+/// A job for writers, which do not check cancelled(): throws Stopped from advance() when the work is to end.
 class Writing : public Job {
   public:
     explicit Writing(const Job& whole) : whole_(whole) {}

@@ -16,7 +16,7 @@
 
 namespace lfdsim::view {
 
-/// What a panel shows, with names resolved to files.
+/// The content of a panel, with names resolved to files.
 struct PanelContent {
     Shown::Kind kind = Shown::Kind::model;  // never start
     std::string name;                     // path, built-in:spheres, or a pattern's name; empty: no model is known, as with an image
@@ -59,7 +59,7 @@ class Panels {
     /// `bytes`: for all visitors together.
     explicit Panels(double bytes = free_bytes()) : budget_(bytes) {}
 
-    /// Of all visitors together; a panel's light, a model and a scene hold their shares for as long as anybody uses them.
+    /// The memory budget of all visitors together; a panel's light, a model and a scene keep their shares while they are in use.
     MemoryBudget& budget() { return budget_; }
 
     /// Throws InputError where the light of a panel, if it is not kept, would not fit into the memory that there is: what is kept
@@ -82,10 +82,10 @@ class Panels {
     /// The model or scene of a source, placed at its depth in the display. Throws like get().
     ContentScene scene(const PanelContent&, const Display&, const Geometry&, Job&);
 
-    /// Its files alone, read only once for all callers, without blocking other calls. Throws like get().
+    /// The content's files, read only once for all callers, without blocking other calls. Throws like get().
     ContentParts parts(const PanelContent&, const Display&, Job&);
 
-    /// What is kept now; at most 3 panels, and 2 GiB unless a single one takes more.
+    /// The contents that are kept now; at most 3 panels, and 2 GiB unless a single one takes more.
     struct Kept {
         std::size_t panels, scenes, models;
         double panel_bytes;

@@ -26,7 +26,7 @@ class Mailbox {
     bool frame(const std::string& lane, std::string bytes);
     /// Whether one of the lane waits, or is the item that next() returned last.
     bool busy(const std::string& lane) const;
-    /// What to send next, texts first; to be called when the last item has been sent. Nothing: the box is empty.
+    /// The next message to send, texts first; to be called when the last item has been sent. Nothing: the box is empty.
     std::optional<QueuedMessage> next();
     /// Accepts no more frames and drops those that wait; with `texts`, also texts.
     void close(bool texts);

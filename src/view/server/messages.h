@@ -12,7 +12,7 @@
 
 namespace lfdsim::view {
 
-/// What the panel shows.
+/// The content that the panel shows.
 struct Shown {
     enum class Kind { start, model, panel_image, pattern };  // start: what the program was started with
     Kind kind = Kind::start;
