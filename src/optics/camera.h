@@ -105,7 +105,7 @@ LFDSIM_FN PixelRays<F> pixel_rays(const RayOrigin& view, std::int32_t column, st
 
 /// A packet's pixels are given twice, for two samples at once.
 template <class H>
-LFDSIM_FN PixelRays<Pair<H>> twice(const PixelRays<H>& p) {
+LFDSIM_FN PixelRays<LanePair<H>> twice(const PixelRays<H>& p) {
     return {{p.x, p.x},
             {p.y, p.y},
             {{p.to.x, p.to.x}, {p.to.y, p.to.y}, {p.to.z, p.to.z}},

@@ -64,7 +64,7 @@ struct Sampler {
 template <class H>
 struct SamplerPair {
     const Sampler<H>&a, &b;
-    LFDSIM_FN Pair<H> operator()(int d) const { return {a(d), b(d)}; }
+    LFDSIM_FN LanePair<H> operator()(int d) const { return {a(d), b(d)}; }
 };
 
 }  // namespace lfdsim::optics::inline LFDSIM_ISA

@@ -1,4 +1,4 @@
-// Pair<H>: two numbers H side by side, which the tracer uses for two samples of the same pixels. Floor 1.
+// LanePair<H>: two numbers H side by side, which the tracer uses for two samples of the same pixels. Floor 1.
 //
 // A sample is one long chain of dependent operations. Two independent chains hide each other's latency, and share what their pixels
 // have in common (docs/performance.md).
@@ -32,36 +32,36 @@ struct PairUint {  // wraps
 };
 
 template <class H>
-struct Pair {
+struct LanePair {
     H a, b;
-    Pair() = default;
-    LFDSIM_FN Pair(H x, H y) : a(x), b(y) {}
-    LFDSIM_FN Pair(float x) : a(x), b(x) {}
-    friend LFDSIM_FN Pair operator+(Pair x, Pair y) { return {x.a + y.a, x.b + y.b}; }
-    friend LFDSIM_FN Pair operator-(Pair x, Pair y) { return {x.a - y.a, x.b - y.b}; }
-    friend LFDSIM_FN Pair operator*(Pair x, Pair y) { return {x.a * y.a, x.b * y.b}; }
-    friend LFDSIM_FN Pair operator/(Pair x, Pair y) { return {x.a / y.a, x.b / y.b}; }
-    friend LFDSIM_FN Pair operator-(Pair x) { return {-x.a, -x.b}; }
-    friend LFDSIM_FN PairMask<Mask<H>> operator<(Pair x, Pair y) { return {x.a < y.a, x.b < y.b}; }
-    friend LFDSIM_FN PairMask<Mask<H>> operator<=(Pair x, Pair y) { return {x.a <= y.a, x.b <= y.b}; }
-    friend LFDSIM_FN PairMask<Mask<H>> operator>(Pair x, Pair y) { return {x.a > y.a, x.b > y.b}; }
-    friend LFDSIM_FN PairMask<Mask<H>> operator>=(Pair x, Pair y) { return {x.a >= y.a, x.b >= y.b}; }
-    friend LFDSIM_FN PairMask<Mask<H>> operator==(Pair x, Pair y) { return {x.a == y.a, x.b == y.b}; }
+    LanePair() = default;
+    LFDSIM_FN LanePair(H x, H y) : a(x), b(y) {}
+    LFDSIM_FN LanePair(float x) : a(x), b(x) {}
+    friend LFDSIM_FN LanePair operator+(LanePair x, LanePair y) { return {x.a + y.a, x.b + y.b}; }
+    friend LFDSIM_FN LanePair operator-(LanePair x, LanePair y) { return {x.a - y.a, x.b - y.b}; }
+    friend LFDSIM_FN LanePair operator*(LanePair x, LanePair y) { return {x.a * y.a, x.b * y.b}; }
+    friend LFDSIM_FN LanePair operator/(LanePair x, LanePair y) { return {x.a / y.a, x.b / y.b}; }
+    friend LFDSIM_FN LanePair operator-(LanePair x) { return {-x.a, -x.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator<(LanePair x, LanePair y) { return {x.a < y.a, x.b < y.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator<=(LanePair x, LanePair y) { return {x.a <= y.a, x.b <= y.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator>(LanePair x, LanePair y) { return {x.a > y.a, x.b > y.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator>=(LanePair x, LanePair y) { return {x.a >= y.a, x.b >= y.b}; }
+    friend LFDSIM_FN PairMask<Mask<H>> operator==(LanePair x, LanePair y) { return {x.a == y.a, x.b == y.b}; }
 };
 
 template <class H>
-struct LaneTraits<Pair<H>> {
+struct LaneTraits<LanePair<H>> {
     using Scalar = optics::Scalar<H>;
     using Mask = PairMask<optics::Mask<H>>;
     using Uint = PairUint<optics::Uint<H>>;
     static constexpr int width = 2 * LaneTraits<H>::width;
-    static LFDSIM_FN Pair<H> from_int(Uint x) { return {optics::from_int<H>(x.a), optics::from_int<H>(x.b)}; }
-    static LFDSIM_FN Pair<H> bits_float(Uint x) { return {optics::bits_float<H>(x.a), optics::bits_float<H>(x.b)}; }
+    static LFDSIM_FN LanePair<H> from_int(Uint x) { return {optics::from_int<H>(x.a), optics::from_int<H>(x.b)}; }
+    static LFDSIM_FN LanePair<H> bits_float(Uint x) { return {optics::bits_float<H>(x.a), optics::bits_float<H>(x.b)}; }
     template <class T, class S>
     static LFDSIM_FN T load(const S* from) {
         return {optics::load<H>(from), optics::load<H>(from + width / 2)};
     }
-    static LFDSIM_FN void load_rows(const Scalar* from, const std::uint32_t* row, Pair<H> (&to)[4]) {
+    static LFDSIM_FN void load_rows(const Scalar* from, const std::uint32_t* row, LanePair<H> (&to)[4]) {
         H a[4], b[4];
         optics::load_rows<H>(from, row, a);
         optics::load_rows<H>(from, row + width / 2, b);
@@ -78,7 +78,7 @@ LFDSIM_FN auto operator<(PairUint<U> x, PairUint<U> y) -> PairMask<decltype(x.a 
     return {x.a < y.a, x.b < y.b};
 }
 template <class M, class H>
-LFDSIM_FN Pair<H> select(PairMask<M> m, Pair<H> x, Pair<H> y) {
+LFDSIM_FN LanePair<H> select(PairMask<M> m, LanePair<H> x, LanePair<H> y) {
     return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
 }
 template <class M, class U>
@@ -86,31 +86,31 @@ LFDSIM_FN PairUint<U> select(PairMask<M> m, PairUint<U> x, PairUint<U> y) {
     return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
 }
 template <class H>
-LFDSIM_FN Pair<H> sqrt(Pair<H> x) {
+LFDSIM_FN LanePair<H> sqrt(LanePair<H> x) {
     return {sqrt(x.a), sqrt(x.b)};
 }
 template <class H>
-LFDSIM_FN Pair<H> floor(Pair<H> x) {
+LFDSIM_FN LanePair<H> floor(LanePair<H> x) {
     return {floor(x.a), floor(x.b)};
 }
 template <class H>
-LFDSIM_FN Pair<H> abs(Pair<H> x) {
+LFDSIM_FN LanePair<H> abs(LanePair<H> x) {
     return {abs(x.a), abs(x.b)};
 }
 template <class H>
-LFDSIM_FN Pair<H> min(Pair<H> x, Pair<H> y) {
+LFDSIM_FN LanePair<H> min(LanePair<H> x, LanePair<H> y) {
     return {min(x.a, y.a), min(x.b, y.b)};
 }
 template <class H>
-LFDSIM_FN Pair<H> max(Pair<H> x, Pair<H> y) {
+LFDSIM_FN LanePair<H> max(LanePair<H> x, LanePair<H> y) {
     return {max(x.a, y.a), max(x.b, y.b)};
 }
 template <class H>
-LFDSIM_FN PairUint<Uint<H>> to_int(Pair<H> x) {
+LFDSIM_FN PairUint<Uint<H>> to_int(LanePair<H> x) {
     return {to_int(x.a), to_int(x.b)};
 }
 template <class H>
-LFDSIM_FN PairUint<Uint<H>> float_bits(Pair<H> x) {
+LFDSIM_FN PairUint<Uint<H>> float_bits(LanePair<H> x) {
     return {float_bits(x.a), float_bits(x.b)};
 }
 
