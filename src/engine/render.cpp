@@ -66,7 +66,7 @@ auto on_threads(int threads, const Do& do_it) {
     return arena.execute(do_it);
 }
 
-/// By the estimator of the work's tile.
+/// Renders by the estimator of the work's tile.
 Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
     return on_threads(threads, [&] {
         return for_tiles(work.tile, job, [&](const Tile& tile) -> std::optional<std::int64_t> {
@@ -124,7 +124,7 @@ void check_threads(const RenderOptions& options) {
         throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, most_threads));
 }
 
-/// What `run` does and how long it takes are added to the work's result.
+/// Runs `run` and stores its samples and its time in the work's result.
 template <class Run>
 bool timed(Work& work, const RenderOptions& options, const Run& run) {
     work.make_pictures(options.target_error.has_value());
@@ -138,7 +138,7 @@ bool timed(Work& work, const RenderOptions& options, const Run& run) {
     return true;
 }
 
-/// With the kernel. The job's stage is the caller's.
+/// Renders with the kernel. The job's stage is the caller's.
 Rendering render(Work& work, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
     timed(work, options, [&](Rendering& result) -> std::optional<Done> {
         result.kernel = kernel_name;
@@ -148,7 +148,7 @@ Rendering render(Work& work, const char* kernel_name, Kernel kernel, const Rende
     return std::move(work.result);
 }
 
-/// By points on the GPU; nothing where the CPU is to render it. The job's stage is the caller's.
+/// Renders by points on the GPU; nothing where the CPU is to render it. The job's stage is the caller's.
 std::optional<Rendering> render_points_on_gpu(Work& work, const ChosenDevice& device, const SummedPanel* summed,
                                               const std::vector<optics::SummedImage>& planes, const RenderOptions& options,
                                               Job& job) {
@@ -205,7 +205,7 @@ class Sum {
     }
     bool complete() const { return sum_.complete; }
     Rendering take() { return std::move(sum_); }
-    /// What is there so far, as bright as the whole will be.
+    /// The unfinished picture, scaled to the brightness of the whole.
     Rendering take_unfinished(float weight) {
         for (float& light : sum_.image.rgb) light /= weight;
         for (float& error : sum_.error.rgb) error /= weight;

@@ -7,8 +7,8 @@ namespace lfdsim {
 /// processes and address space all count.
 int threads_to_be_had(int wanted);
 
-/// From now on work is shared by no more threads than there can be: libraries wait for ever, or give up, for one that the system
-/// refuses. Where there are enough nothing changes; where there are none the calling thread does all the work.
+/// Limits work to as many threads as there can be: libraries wait for ever, or give up, for one that the system refuses. Where
+/// there are enough nothing changes; where there are none the calling thread does all the work.
 void use_only_threads_to_be_had();
 
 }  // namespace lfdsim

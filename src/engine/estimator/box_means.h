@@ -55,7 +55,7 @@ struct LongSide {
     F in_first, in_middle, in_last;
     Mask<F> there;  // numbers are those of pixels of the image
 
-    /// From `start` to `end`, pixels from the pixel `base` of `count`. What lies beside the image is cut off.
+    /// The side from `start` to `end`, pixels from the pixel `base` of `count`, cut off at the image's ends.
     LFDSIM_FN LongSide(std::uint32_t base, std::uint32_t count, F start, F end) {
         using S = Scalar<F>;
         const F one = F(1), low = F(0) - F(S(std::int32_t(base))), high = F(S(std::int32_t(count - base)));
@@ -122,8 +122,8 @@ LFDSIM_LARGE void add_integrals(const SummedImage& image, const LongSide<F>& acr
     light.add(sum);
 }
 
-/// A side of a box, cut off at the image's ends and into equal pieces of which each covers at most so many pixels. More than `most`
-/// pieces would be too many: so many then stand for all, evenly spaced.
+/// A side of a box, cut off at the image's ends and into equal pieces of at most `most_size` pixels. Of more than `most` pieces,
+/// `most` evenly spaced ones represent all.
 template <class F>
 struct CutSide {
     static constexpr int most = 16;

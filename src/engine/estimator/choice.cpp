@@ -109,7 +109,8 @@ struct FilteredError {
     }
 
     double rms() const { return std::sqrt(std::max(square, 0.0) + square_noise); }
-    /// Is a pixel's error below what is allowed, and the mean's? Where neither answer is true, more points tell.
+    /// Whether a pixel's error and the mean's are below what is allowed. Where neither right() nor wrong() holds, more points
+    /// decide.
     bool right(double allowed, double mean) const {
         return rms() <= allowed && local2 <= mean * mean && local_noise <= 3 * mean * mean &&
                region2 <= 0.5 * mean * mean + region_noise;

@@ -14,7 +14,7 @@
 
 namespace lfdsim {
 
-/// How one region is rendered.
+/// The choice of estimator for one region.
 struct RegionChoice {
     int strata = 0;            // an axis, of filtered light; 0: by points
     std::uint32_t points = 0;  // a pixel; 0: as many as the target error takes

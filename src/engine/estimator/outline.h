@@ -6,9 +6,9 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 constexpr int most_corners = 8;
 
-/// The corners of a polygon for each lane, in either sense of rotation.
+/// The outline of a lens for each lane: the corners of a polygon, in either sense of rotation.
 template <class F>
-struct Polygon {
+struct LensOutline {
     int count;
     F x[most_corners], y[most_corners];
 };
@@ -21,7 +21,7 @@ struct Box {
 
 /// Whether a polygon contains a whole box.
 template <class F>
-LFDSIM_FN Mask<F> contains(const Polygon<F>& of, const Box<F>& box) {
+LFDSIM_FN Mask<F> contains(const LensOutline<F>& of, const Box<F>& box) {
     const F half = F(Scalar<F>(0.5)), x = half * (box.left + box.right), y = half * (box.low + box.high), wide = box.right - x,
             high = box.high - y;
     F least = F(Scalar<F>(1e30)), most = -least;
@@ -45,7 +45,7 @@ struct Moments {
 /// the box. The integrands are of third degree at most between the points where the border enters and leaves the box, so two
 /// points of Gauss's rule there give them exactly.
 template <class F>
-LFDSIM_FN Moments<F> part_within(const Polygon<F>& of, const Box<F>& box) {
+LFDSIM_FN Moments<F> part_within(const LensOutline<F>& of, const Box<F>& box) {
     using S = Scalar<F>;
     const auto cut = [](F value, F low, F high) { return min(max(value, low), high); };
     const F zero = F(0), one = F(1), half = F(S(0.5)), middle_x = half * (box.left + box.right),

@@ -230,8 +230,8 @@ LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
     return b;
 }
 
-/// How the position on the panel changes with the position in the plane of the holes: least squares over the probes, panel pixels
-/// per mm.
+/// The derivatives of the position on the panel by the position in the plane of the holes: least squares over the probes, panel
+/// pixels per mm.
 template <class S>
 struct PanelSlopes {
     S column[2], row[2];  // along x and y

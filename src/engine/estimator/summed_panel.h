@@ -14,7 +14,7 @@ namespace optics {  // optics/traced_display.h
 struct SummedImage;
 }
 
-/// What a display's pictures read of a panel.
+/// The planes and tables of a panel that a display's pictures read.
 struct PanelReading {
     bool summed = true;                            // the filtered estimator; single rays do without tables
     std::vector<PanelPlane> planes{PanelPlane()};  // of its subpixels; the first is the panel itself
@@ -26,7 +26,7 @@ PanelReading panel_reading(const Display&);
 /// it sums, 16 bytes a pixel. The panel image must outlive it, unchanged.
 class SummedPanel {
   public:
-    /// Nothing is made yet. threads, 0: all, will make it.
+    /// Keeps a reference to the panel; tables are made at first use. `threads`: those that make them, 0: all.
     explicit SummedPanel(const Texels& panel, int threads = 0);
     ~SummedPanel();
     SummedPanel(SummedPanel&&) noexcept;

@@ -18,7 +18,7 @@ struct Gradient {
     S middle, right, down;
 
     static Gradient of(S at_middle, S at_right, S at_bottom) { return {at_middle, at_right - at_middle, at_bottom - at_middle}; }
-    /// At (dx, dy) of the block, -1 .. 1 across it.
+    /// The value at (dx, dy) of the block, -1 .. 1 across it.
     template <class G>
     LFDSIM_FN G at(G dx, G dy) const {
         return G(middle) + G(right) * dx + G(down) * dy;

@@ -107,7 +107,7 @@ class LensByLens : VisibleLenses {
     void add_lens(const optics::PixelRays<F>& pixels, SampleCoordinates<F> coordinates, const DomainMap<F>& map,
                   const VisibleLens& lens, const S (&width)[optics::sampler_dimensions], F share, optics::Light<F>& light) {
         const F zero = F(0), one = F(1), half = F(S(0.5));
-        const optics::Polygon<F> outline = outline_of(map, {lens.i, lens.j});
+        const optics::LensOutline<F> outline = outline_of(map, {lens.i, lens.j});
         optics::Box<F> bounds{F(S(1e30)), F(S(-1e30)), F(S(1e30)), F(S(-1e30))};
         for (int k = 0; k < outline.count; ++k)
             bounds = {optics::min(bounds.left, outline.x[k]), optics::max(bounds.right, outline.x[k]),

@@ -90,11 +90,11 @@ class LensDomain {
 
     /// The outline of a lens's cell in the domain's coordinates. A strip has no end.
     template <class G>
-    LFDSIM_FN optics::Polygon<G> outline_of(const DomainMap<G>& map, optics::Cell<S> lens) const {
+    LFDSIM_FN optics::LensOutline<G> outline_of(const DomainMap<G>& map, optics::Cell<S> lens) const {
         const Lattice<S>& lattice = display.lattice;
         const optics::Vec2<S> axis = optics::axis_of(lattice, lens);
         const G to_x = G(axis.x) - map.x, to_y = lattice.strips ? G(S(0)) : G(axis.y) - map.y;
-        optics::Polygon<G> outline;
+        optics::LensOutline<G> outline;
         S x[6], y[6];
         if (lattice.hexagonal) {
             const S wide = lattice.half_pitch[0], high = optics::reach_of_cell(lattice);
@@ -169,7 +169,7 @@ class LensDomain {
     }
 
     /// The part of a cell that lies in a lens.
-    LFDSIM_FN LensPart part_of(const DomainMap<F>& map, optics::Cell<S> lens, const optics::Polygon<F>& outline,
+    LFDSIM_FN LensPart part_of(const DomainMap<F>& map, optics::Cell<S> lens, const optics::LensOutline<F>& outline,
                                const optics::Box<F>& cell, optics::Mask<F> there) const {
         const F zero = F(0), half = F(S(0.5)), du = cell.right - cell.left, dv = cell.high - cell.low;
         LensPart part{

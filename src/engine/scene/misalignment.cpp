@@ -13,7 +13,7 @@
 namespace lfdsim {
 namespace {
 
-/// What the lenses come to together.
+/// The extremes over all lenses.
 struct Extremes {
     double aside = 0, low = 0, high = 0, tilt = 0, curvature[2] = {1, 1};
 

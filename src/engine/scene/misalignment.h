@@ -4,7 +4,7 @@
 
 namespace lfdsim {
 
-/// Its turn Ry(wedge y) Rx(wedge x), between the array's own frame and that turned about z alone; the identity of an array without.
+/// The rotation Ry(wedge y) Rx(wedge x) from the frame turned about z only to that of the array; the identity without a wedge.
 void wedge_of(const Errors&, const Geometry&, double (&wedge)[3][3]);
 
 /// Errors of all lenses, drawn and given, with the bow in their heights: row by row from the lower left.

@@ -265,7 +265,7 @@ double pixel_on_diffuser(const optics::RayOrigin& view) {
     return view.pixel_mm * std::abs((view.position[2] - view.start_z) / (view.forward[2] * view.distance));
 }
 
-/// What a diffused ray spans along an axis in the plane of the holes; mm.
+/// The width that a diffused ray spans along an axis in the plane of the holes; mm.
 double diffused_span(const optics::TracedDisplay<float>& scene, int axis) {
     return 2 * double(scene.holes_below[axis]) * std::tan(std::min(double(scene.half_angle[axis]), 1.5));
 }

@@ -39,7 +39,7 @@ std::int64_t samples_of(const Display&);
 /// Dimensions of the sampler that a display needs; 0: there is nothing to sample, one ray a pixel is exact.
 int sample_dimensions(const Display&);
 
-/// How the filtered estimator renders a display.
+/// The blocks in which the filtered estimator renders a display.
 struct BlockShape {
     bool shared;  // blocks of pixels cut the diffuser's angles by one grid of strata, and share its rays; else lens by lens
     int side;     // of such a block, pixels: 16, 8 or 4
@@ -49,7 +49,7 @@ struct BlockShape {
 /// ask for a fine picture, nearly as much for a rough one.
 BlockShape block_shape(const optics::TracedDisplay<float>&, const optics::RayOrigin&, int strata, bool rough = false);
 
-/// Are lenses' outlines to cut the pixel's area, because the diffuser, if there is one, spreads rays over less of the lenses?
+/// Whether lenses' outlines cut the pixel's area, because the diffuser, if there is one, spreads rays over less of the lenses?
 bool cuts_pixel(const optics::TracedDisplay<float>&, const optics::RayOrigin&);
 
 const optics::DirectionNumbers& sobol_directions();

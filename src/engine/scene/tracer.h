@@ -12,7 +12,7 @@ struct Tracer {
     const optics::TracedDisplay<float>& scene;
 };
 
-/// As render(), with this kernel in place of those of the table. Throws InputError.
+/// Renders as render(), with this kernel in place of those of the table. Throws InputError.
 Rendering render_with(const Tracer&, const Display&, const Geometry&, const std::vector<optics::SummedImage>&, const RenderOptions&,
                       Job&);
 

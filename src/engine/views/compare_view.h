@@ -10,7 +10,7 @@ namespace lfdsim {
 
 class GpuPhotographs;  // gpu.h
 
-/// What a view should look like: a photograph of the scene, and the regions in which they are compared, counted from its corner.
+/// The reference of a view: a photograph of the scene, and the regions in which they are compared, counted from its corner.
 class Expected {
   public:
     Expected(Image photograph, Region screen, Region content);

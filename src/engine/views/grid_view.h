@@ -14,8 +14,8 @@ struct GridCamera {
     double per_column, per_row;  // pixels of the picture for one of the view
 };
 
-/// For a view of width x height pixels. Throws InputError, with the camera's number in the grid, if it stands within the display,
-/// or too far aside for its picture.
+/// The camera of a view of width x height pixels. Throws InputError, with the camera's number in the grid, if it is within the
+/// display, or too far aside for its picture.
 GridCamera grid_camera(const Display&, const Geometry&, const ViewGrid&, int column, int row, int width, int height);
 
 /// The view: renders it and takes for each of its pixels the mean over its area. The image has width x height pixels; `crop` of the

@@ -12,7 +12,7 @@
 namespace lfdsim {
 namespace {
 
-/// How far a ray that fails a test by `excess` is from getting through, with so many more tests to come.
+/// The distance of a ray that fails a test by `excess` from getting through, with `to_come` more tests.
 double missed(int to_come, double excess) { return to_come + 1 + (excess >= 0 ? 1 - 1 / (1 + excess) : 1); }
 
 }  // namespace
@@ -68,7 +68,7 @@ double LensTrace::blocked_by_ideal(Point panel, Point slope, LensRay& out) const
     return 0;
 }
 
-/// What pass_lens() calls for a search: records by how much each ray misses where it ends.
+/// The rules of pass_lens() for a search: they record by how much each ray misses where it ends.
 struct LensTrace::Aim : optics::SingleLens<double> {
     const LensTrace& lens;
     const int count = display.surface_count;

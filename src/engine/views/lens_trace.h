@@ -40,7 +40,7 @@ class LensTrace {
     /// The point of the principal planes that towards() would give these cosines for.
     Point aim(Point panel, Point cosines) const;
 
-    /// Does the lens focus light along x alone?
+    /// Whether the lens focuses light along x only.
     bool of_strips() const { return scene_.lattice.strips; }
 
     /// A rectangle not much larger than all directions that get through. None if none does, or less than 1e-10 of them.

@@ -15,7 +15,7 @@ namespace lfdsim {
 
 namespace {
 
-/// Where the camera sees points in front of it, pixels from its picture's upper left corner.
+/// The positions at which the camera sees points in front of it, pixels from its picture's upper left corner.
 class CameraPoints {
   public:
     CameraPoints(const Display& display, const Geometry& geometry)
@@ -74,7 +74,7 @@ Polygon array_outline(const Geometry& g) {
     return outline;
 }
 
-/// Where the array reaches over the panel by more than half a lens, the panel's side as the camera sees it on the vertex plane.
+/// The sides of the panel over which the array reaches by more than half a lens, as the camera sees them on the vertex plane.
 std::vector<HalfPlane> panel_sides(const Geometry& g, const Vec3d& camera, const Polygon& array) {
     const Lattice<double>& l = g.lattice;
     const double on = g.vertex_plane_mm / camera[2];  // how much of the way from the panel to the camera
@@ -112,7 +112,7 @@ Polygon cut(const Polygon& from, const HalfPlane& side) {
     return to;
 }
 
-/// Without edges that are short: the edges before and after each are drawn on until they meet.
+/// A polygon without its short edges: the edges before and after each are drawn on until they meet.
 Polygon without_short_edges(Polygon p) {
     constexpr double part = 0.02;  // of the outline
     const auto length = [&](std::size_t k) {
