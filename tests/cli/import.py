@@ -88,7 +88,7 @@ for name, glass in [("unit", ""), ("sheet", " --index 1.9")]:
 (folder / "service.json").write_text(json.dumps({"error": 0, "devices": [{"hwid": "X", "calibration": json.loads((folder / "visual.json").read_text())}]}))
 for options in ("", "--index 1.9", "--index 1.6"):
     said = program.must(f"import service.json --distance-mm 400 {options} -o service.toml --force")
-    checks.that("stands under devices[0].calibration" in said, f"service: said {said!r}")
+    checks.that("is under devices[0].calibration" in said, f"service: said {said!r}")
     checked = json.loads(program.must("check service.toml --json"))
     checks.that(checked["warnings"] == [], f"check of an imported display warns: {checked['warnings']}")
     checks.that(checked["display"]["content"]["view_cone_deg"] == 40, "the view cone is lost")
@@ -110,7 +110,7 @@ DIVERGING = zmx([(-1 / 50, 2, "STOP", "GLAS N-BK7"), (1 / 50, 40)])
 for arguments in ("diverging.zmx", "virtual.zmx --gap-mm 20", "diverging.zmx --flip --gap-mm 20"):
     said = program.must(f"import {arguments} -o diverging.toml --force")
     checks.that("The lens diverges (focal length -4" in said, f"{arguments}: said {said!r}")
-checks.refused(program, "a virtual image", "import virtual.zmx -o x.toml", "the lens diverges", "a virtual one")
+checks.refused(program, "a virtual image", "import virtual.zmx -o x.toml", "the lens diverges", "is virtual")
 checks.refused(program, "no focus", "import diverging.zmx --flip -o x.toml", "which diverges, has no focus there")
 
 # What is refused, and nothing is written.
@@ -143,7 +143,7 @@ for name, arguments, *words in [
     ("cut", "import cut.zmx -o x.toml", "cut.zmx:14: ends with surface 2, which is not the image", "the file is cut"),
     ("toroid", "import torus.zmx -o x.toml", "surface 2 is of type TOROIDAL"),
     ("no number", "import nan.zmx -o x.toml", "nan.zmx:15: surface 2: DISZ \"NaN\" is not a finite number"),
-    ("absurd number", "import huge.zmx --glass MYSF5=SF5 -o x.toml", "surface 2: the next surface stands 1e+200 mm behind it"),
+    ("absurd number", "import huge.zmx --glass MYSF5=SF5 -o x.toml", "surface 2: the next surface is 1e+200 mm behind it"),
     ("rubbish", "import rubbish.zmx -o x.toml", "rubbish.zmx:1: SURF"),
     ("large", "import large.zmx -o x.toml", "large.zmx: has 1400", "is this a lens in Zemax's format?"),
     ("empty", "import empty.zmx -o x.toml", "empty.zmx:1: is no lens in Zemax's format"),

@@ -112,7 +112,7 @@ TEST(Agf, FaultsHaveALine) {
     EXPECT_EQ(fault("NM A 1 0 1.5 60\nCD 1 nan\n"), "f.agf:2: CD: \"nan\" is not a number");
     EXPECT_EQ(fault("\n\nNM A\n"), "f.agf:3: NM: needs a name and the number of a formula");
     EXPECT_EQ(fault("NM A B\n"), "f.agf:1: NM: \"B\" is not the number of a formula");
-    EXPECT_EQ(fault("CD 1 2 3\n" + bk7), "f.agf:1: CD: stands before the first glass, whose line begins with NM");
+    EXPECT_EQ(fault("CD 1 2 3\n" + bk7), "f.agf:1: CD: precedes the first glass, which begins with a line NM");
     EXPECT_EQ(fault("NM " + std::string(65, 'A') + " 1\n"),
               "f.agf:1: NM: \"" + std::string(40, 'A') + "...\" is longer than the 64 bytes allowed");
     EXPECT_EQ(fault(""), "f.agf: has no line NM with a glass; an AGF catalogue does");

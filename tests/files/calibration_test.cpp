@@ -82,10 +82,10 @@ TEST(Calibration, IsFoundWhereverItStands) {
         if (c.place.empty())
             EXPECT_EQ(c.notes, wanted.notes);
         else
-            EXPECT_THAT(c.notes, Contains(HasSubstr("stands under " + c.place)));
+            EXPECT_THAT(c.notes, Contains(HasSubstr("is under " + c.place)));
     }
     EXPECT_THAT(calibration_refused(two.dump()),
-                testing::AllOf(HasSubstr("holds 2 calibrations"), HasSubstr("devices[0].calibration"),
+                testing::AllOf(HasSubstr("contains 2 calibrations"), HasSubstr("devices[0].calibration"),
                                HasSubstr("devices[1].calibration (ANOTHER)")));
     Json bad = devices;
     bad["devices"][0]["calibration"].erase("pitch");
@@ -210,7 +210,7 @@ TEST(Calibration, NamesTheKeyThatIsWrong) {
         {"CellPatternMode", 7, "CellPatternMode: is 7; allowed is 0 to 4"},
         {"subpixelCells", 5, "subpixelCells: is no list of 1 to 16 cells"},
         {"subpixelCells", Json::array({1}), "subpixelCells[0].ROffsetX: is missing"},
-        {"subpixelCells", Json::array({cell(0, 0, 0, 0, 0.3, 0)}), "subpixelCells: have two subpixels in one place"},
+        {"subpixelCells", Json::array({cell(0, 0, 0, 0, 0.3, 0)}), "subpixelCells: have two subpixels at the same position"},
         {"subpixelCells", Json::array({cell(-9, 0, 0, 0, 0.3, 0)}), "subpixelCells[0].ROffsetX: is -9; allowed is -1 to 1"},
         {"subpixelCells", delta_cells(), "CellPatternMode: is missing, and there are 2 subpixelCells"},
     };

@@ -114,7 +114,7 @@ TEST_F(LensTable, RefusesWithTheLine) {
     expect(std::string(header) + "-1,2,0,0,0,0,0,0\n", "lenses.csv:2: there is no lens i = -1");
     expect(std::string(header) + "1.5,2,0,0,0,0,0,0\n", "whole numbers");
     expect(std::string(header) + "1,2,0,0,0,0,0,0\n2,2,0,0,0,0,0,0\n1,2,0,0,0,0,0,0\n",
-           "lenses.csv:4: lens (1, 2) stands in line 2, too");
+           "lenses.csv:4: lens (1, 2) is also in line 2");
     expect(std::string(header) + "1,2,nan,0,0,0,0,0\n", "dx_mm is \"nan\"");
     expect(std::string(header) + "1,2,x,0,0,0,0,0\n", "dx_mm is \"x\"");
     expect(std::string(header) + "1,2,0,0,0,0,0\n", "has 7 values");

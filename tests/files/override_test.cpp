@@ -115,13 +115,13 @@ TEST(Override, HintsForNumbers) {
     hint("array.pitch_mm=1.866 mm", "write 1.866");
     hint("array.pitch_mm=1.866cm", "array.pitch_mm is in mm; write the number in it");
     hint("content.yaw_deg=90\u00b0", "write 90");
-    hint("lens.index=1.5x", "the value is a number alone; write 1.5");
+    hint("lens.index=1.5x", "the value is a number without a unit; write 1.5");
     hint("array.pitch_mm=1,5", "the decimal sign is a point; write 1.5");
     hint("array.pitch_mm=1e", "the exponent is missing; write a number such as 1e3");
     hint("array.pitch_mm=1e+", "the exponent is missing; write a number such as 1e3");
-    hint("array.pitch_mm=\"0.5", "numbers stand without quotes; write 0.5");
+    hint("array.pitch_mm=\"0.5", "numbers are written without quotes: 0.5");
     hint("array.pitch_mm=+-", "give a number such as 12.5 or 1e3");
-    hint("array.count=11, 6", "a list stands in brackets; write [11, 6]");
+    hint("array.count=11, 6", "a list is written in brackets: [11, 6]");
     hint("lens.surface.0.conic=.5", "write 0.5");
 }
 

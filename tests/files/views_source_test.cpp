@@ -196,7 +196,7 @@ TEST_F(ViewsSourceTest, BothConventionsOfAViewCone) {
         EXPECT_NEAR(x(folder, row + "view_cone_deg = 20\ndistance_mm = 586\ncone = \"ends\"\n", {}, i), ends(i, 6, 20), 1e-9);
     }
     write("views.toml", "schema = 1\n" + row + "baseline_mm = [1, 1]\ncone = \"ends\"\n");
-    EXPECT_THAT(refused(folder), HasSubstr("cone says how cameras stand in a view cone"));
+    EXPECT_THAT(refused(folder), HasSubstr("cone places the cameras in a view cone"));
     write("views.toml", "schema = 1\n" + row + "view_cone_deg = 3\ncone = \"middle\"\n");
     EXPECT_THAT(refused(folder), HasSubstr("cone"));
     EXPECT_THROW(x(folder, row + "baseline_mm = [1, 1]\n", at_ends, 0), InputError);

@@ -128,7 +128,7 @@ TEST(Zmx, NamesWhatCannotBeImported) {
         {"  CURV -0.478080\n", "", "lens.zmx:19: surface 3 has no CURV"},
         {"  DISZ 0.09\n", "", "lens.zmx:19: surface 3 has no DISZ"},
         {"SURF 5", "SURF 6", "lens.zmx:26: SURF 6, where surface 5 should begin"},
-        {"SURF 0\n", "", "lens.zmx:8: CURV stands before the first SURF"},
+        {"SURF 0\n", "", "lens.zmx:8: CURV precedes the first SURF"},
     };
     for (const auto& c : cases) EXPECT_THAT(zmx_refused(zmx_with(tessar, c.old, c.replacement)), HasSubstr(c.message));
     EXPECT_THAT(zmx_refused(""), HasSubstr("no line begins with SURF"));

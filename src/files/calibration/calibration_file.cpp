@@ -205,10 +205,11 @@ class CalibrationReader : JsonReader {
         if (!version.is_null() && version != "1.0" && version != "3.0")
             c.notes.push_back(fmt::format("configVersion is {}, not 1.0 or 3.0; read like these.", word_of(version)));
         if (!flag("invView", true))
-            c.notes.push_back("invView is 0: views are numbered from right to left. Where the lenses stand does not depend on it.");
+            c.notes.push_back(
+                "invView is 0: views are numbered from right to left. The positions of the lenses do not depend on it.");
         if (flag("flipImageY"))
             c.notes.push_back(
-                "flipImageY is not read: where the lenses stand does not depend on it; turn the content over instead.");
+                "flipImageY is not read: the positions of the lenses do not depend on it; turn the content over instead.");
         std::vector<std::string> others;
         for (const auto& [key, content] : all->items()) {
             const LensJson& of = content.is_object() ? member(content, "value") : content;
@@ -253,14 +254,13 @@ Calibration parse_calibration(std::string_view text, std::string_view name) {
             const LensJson& serial = plain(*each.json, "serial");
             places.push_back(serial.is_string() ? fmt::format("{} ({})", each.place, word_of(serial)) : each.place);
         }
-        throw InputError(std::string(name),
-                         fmt::format("holds {} calibrations: {}; save the one of the display in a file of its own", found.size(),
-                                     fmt::join(places, ", ")));
+        throw InputError(std::string(name), fmt::format("contains {} calibrations: {}; save that of the display in a separate file",
+                                                        found.size(), fmt::join(places, ", ")));
     }
     const auto& [place, owner, json] = found.front();
     Calibration made = CalibrationReader(place.empty() ? std::string(name) : fmt::format("{}: {}", name, place)).read(*json);
     made.place = place;
-    if (!place.empty()) made.notes.insert(made.notes.begin(), fmt::format("The calibration stands under {} in the file.", place));
+    if (!place.empty()) made.notes.insert(made.notes.begin(), fmt::format("The calibration is under {} in the file.", place));
     return made;
 }
 

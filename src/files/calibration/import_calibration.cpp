@@ -101,7 +101,7 @@ class CalibrationImport {
         const CellPattern& pattern = cell_patterns[c.cell_pattern];
         const auto [width, height] = largest_rect(c);
         if (!(width >= least_share && height >= least_share))
-            refuse("subpixelCells", "have two subpixels in one place, or nearly so; each needs a place of its own");
+            refuse("subpixelCells", "have two subpixels at the same position, or nearly so; the positions must differ");
         d.panel.subpixels = SubpixelLayout::custom;
         d.panel.subpixel_cell = {pattern.columns, pattern.rows};
         for (int row = 0; row < pattern.rows; ++row)
@@ -185,8 +185,8 @@ class CalibrationImport {
         d.lens.kind = sheet->lens;
         d.array.base_z_mm = sheet->layer_mm;
         d.array.surround = Surround::plate;
-        note("Cylinders of index {:g} (--index) in a sheet of {:.4g} mm on the panel, which stands in their focus: R = (n - 1) g.",
-             n, n * gap_mm);
+        note("Cylinders of index {:g} (--index) in a sheet of {:.4g} mm on the panel, which is in their focus: R = (n - 1) g.", n,
+             n * gap_mm);
     }
 
     // The phase of the panel's middle and where a lens's axis is seen from the eye: whole phases are borders of elemental images.

@@ -62,7 +62,7 @@ std::string_view unit_of_key(std::string_view path) {
 
 std::string with_unit(std::string_view path, const std::string& number, std::string_view given) {
     const std::string_view unit = unit_of_key(path);
-    if (unit.empty()) return fmt::format("the value is a number alone; write {}", number);
+    if (unit.empty()) return fmt::format("the value is a number without a unit; write {}", number);
     const bool same = given == unit || (unit == "deg" && (given == "degrees" || given == "\u00b0"));
     return fmt::format("numbers carry no unit, {} is in {}; write {}", path, unit, same ? number : "the number in it");
 }
@@ -95,7 +95,7 @@ std::string number_hint(std::string_view path, std::string_view value) {
         const std::string_view inside = trimmed(value.substr(1));
         std::string_view rest;
         if (const auto number = decimal(inside, rest); number && rest.empty())
-            return "numbers stand without quotes; write " + *number;
+            return "numbers are written without quotes: " + *number;
     }
     std::string_view rest;
     if (const auto number = decimal(value, rest)) {
@@ -114,7 +114,7 @@ std::string number_hint(std::string_view path, std::string_view value) {
 }
 
 std::string list_hint(std::string_view value) {
-    if (const auto all = decimals(value)) return fmt::format("a list stands in brackets; write [{}]", fmt::join(*all, ", "));
+    if (const auto all = decimals(value)) return fmt::format("a list is written in brackets: [{}]", fmt::join(*all, ", "));
     return "";
 }
 

@@ -125,7 +125,7 @@ class AgfReader {
         if (words.empty()) return;
         if (words[0] == "NM") return begin(words);
         if (words[0] == "CD" || words[0] == "LD") {
-            if (!names_) return add_problem(words[0], "stands before the first glass, whose line begins with NM");
+            if (!names_) return add_problem(words[0], "precedes the first glass, which begins with a line NM");
             (words[0] == "CD" ? entry_.c : entry_.range_um) = numbers(words);
         }
     }

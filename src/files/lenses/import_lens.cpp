@@ -86,10 +86,10 @@ class LensImport {
         for (const LensMedium& m : media) indices.push_back(index_at(m.index, m.glass, nm));
         for (const std::size_t i : {std::size_t(0), lens.surfaces.size() - 2})
             if (media[i] != LensMedium())
-                refuse(lens.surfaces[i].place, "has no air behind it; {} must stand in air", i == 0 ? "the object" : "the image");
+                refuse(lens.surfaces[i].place, "has no air behind it; {} must be in air", i == 0 ? "the object" : "the image");
         for (const GlassChoice& choice : request.glasses)
             if (taken.contains(choice.name))
-                notes.push_back(fmt::format("By --glass, not the file's own: {}.", choice.name));
+                notes.push_back(fmt::format("Replaced by --glass: {}.", choice.name));
             else
                 refuse("--glass", "the lens has no glass {}", shortened(choice.name));
         if (std::any_of(media.begin(), media.end(), [](const LensMedium& m) { return m.glass.has_value(); }))
@@ -194,7 +194,7 @@ class LensImport {
             surface.glass = media[behind].glass;
             surface.distance_mm = tidy(between(behind, next));
             if (!(surface.distance_mm >= 0 && surface.distance_mm <= longest_mm))
-                refuse(lens.surfaces[behind].place, "the next surface stands {} mm behind it, allowed is {}", surface.distance_mm,
+                refuse(lens.surfaces[behind].place, "the next surface is {} mm behind it, allowed is {}", surface.distance_mm,
                        length_or_zero.text());
         }
         return made;
@@ -249,13 +249,12 @@ class LensImport {
         if (const double distance = request.flip ? to_object : to_image; std::isfinite(distance)) {
             if (const double gap_mm = distance + c.front_principal_mm; diverges && !(gap_mm > 0)) {
                 refuse("--gap-mm",
-                       "the lens diverges (focal length {:.6g} mm): the file's {} is a virtual one, where no panel can stand; give "
-                       "the gap, or a "
-                       "lens that converges",
+                       "the lens diverges (focal length {:.6g} mm): the file's {} is virtual, and no panel can be there; give the "
+                       "gap, or a lens that converges",
                        c.focal_length_mm, request.flip ? "object" : "image");
                 report();
             }
-            notes.push_back(fmt::format("The panel stands where the file's {} is, {:.6g} mm from the nearest surface.",
+            notes.push_back(fmt::format("The panel is at the file's {}, {:.6g} mm from the nearest surface.",
                                         request.flip ? "object" : "image", distance));
             return tidy(distance + c.front_principal_mm);
         }
@@ -265,7 +264,7 @@ class LensImport {
                    request.flip ? "object" : "image", c.focal_length_mm, diverges ? ", which diverges," : "");
             report();
         }
-        notes.push_back(fmt::format("The file's {} is at infinity: the panel stands in the lens's focal plane.",
+        notes.push_back(fmt::format("The file's {} is at infinity: the panel is in the lens's focal plane.",
                                     request.flip ? "object" : "image"));
         return c.focal_length_mm;  // to the last bit, so that the lens collimates
     }

@@ -95,7 +95,7 @@ class TableReader {
                        near.empty() ? fmt::format("known are {}", fmt::join(table_columns, ", "))
                                     : fmt::format("did you mean {}?", near));
             } else if (std::ranges::find(order_, at) != order_.end())
-                refuse("the column {} stands there twice", word);
+                refuse("the column {} occurs twice", word);
             order_.push_back(at);
         }
         for (std::size_t k = 0; k < column_count && problems_.empty(); ++k)
@@ -139,7 +139,7 @@ class TableReader {
         for (std::size_t k = 1; k < rows_.size(); ++k)
             if (rows_[k].lens.i == rows_[k - 1].lens.i && rows_[k].lens.j == rows_[k - 1].lens.j)
                 refuse_at(rows_[k].line,
-                          fmt::format("lens ({}, {}) stands in line {}, too", rows_[k].lens.i, rows_[k].lens.j, rows_[k - 1].line));
+                          fmt::format("lens ({}, {}) is also in line {}", rows_[k].lens.i, rows_[k].lens.j, rows_[k - 1].line));
     }
 
     std::string_view text_;  // what is not read yet

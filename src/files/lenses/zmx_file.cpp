@@ -75,7 +75,7 @@ class ZmxReader {
         if (key == "SURF") return begin_surface();
         const bool of_surface =
             std::any_of(std::begin(surface_words), std::end(surface_words), [&](const Word& word) { return word.key == key; });
-        if (of_surface && surfaces.empty()) return refuse(line, "{} stands before the first SURF", key);
+        if (of_surface && surfaces.empty()) return refuse(line, "{} precedes the first SURF", key);
         for (const Word& word : of_surface ? std::span<const Word>(surface_words) : std::span<const Word>(system_words))
             if (word.key == key) return (this->*word.read)();
         if (std::ranges::find(other_apertures, key) != std::end(other_apertures))
@@ -248,7 +248,8 @@ class ZmxReader {
             refuse(last.line, "ends with surface {}, which is not the image: another one follows at DISZ {}; the file is cut",
                    surfaces.size() - 1, last.drawn.distance_mm);
         else if (surfaces.size() < 3)
-            refuse(last.line, "has {}; a lens stands between an object and an image", counted(surfaces.size(), "surface"));
+            refuse(last.line, "has {}; a lens needs an object, an image and surfaces between them",
+                   counted(surfaces.size(), "surface"));
         if (unit_mm == 0) lens.notes.push_back("The file names no unit of length; taken as mm.");
         if (cut_line && !text.starts_with("VERS"))
             lens.notes.push_back("The file's last line has no end; if it was cut there, something may be missing.");

@@ -106,10 +106,10 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
     const double scale = source.width_mm ? grid.width_mm / *source.width_mm : 1;
     const bool placed_in_cone = source.cameras.empty() || source.cone_deg || !source.in_mm;
     if (wish.cone && (wish.baseline_mm || !(placed_in_cone || wish.cone_deg)))
-        throw InputError("--cone", wish.baseline_mm
-                                       ? "says how cameras stand in a view cone, --baseline-mm that they do not; give one of them"
-                                       : "says how cameras stand in a view cone, but these have places of their own; give "
-                                         "--view-cone-deg, too");
+        throw InputError("--cone",
+                         wish.baseline_mm
+                             ? "places the cameras in a view cone, --baseline-mm at equal distances; give one of them"
+                             : "places the cameras in a view cone, but their positions are given; give --view-cone-deg, too");
     // As the display shows quilts: the k-th of n parts of each elemental image has view k, wherever its camera stood.
     const bool unsaid = source.cameras.empty() && !source.cone_deg && !source.cone && !source.distance_mm && !wish.baseline_mm &&
                         !wish.cone_deg && !wish.cone && !wish.distance_mm;

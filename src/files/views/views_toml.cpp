@@ -164,7 +164,7 @@ void read_cameras(ViewsReader& reader, ViewsSource& source) {
         source.cone = ConeCameras(reader.word("cone", cone_camera_words));
         if (places || reader.has("baseline_mm"))
             reader.refuse("cone",
-                          "says how cameras stand in a view cone, but their places are given; leave it out, or give view_cone_deg");
+                          "places the cameras in a view cone, but their positions are given; leave it out, or give view_cone_deg");
     }
 }
 

@@ -45,8 +45,8 @@ void render_tile(const Tile& tile) {
 MeshedLens::MeshedLens(const Display& display, const Geometry& geometry, std::int64_t triangles, LensNormals normals) {
     if (is_irregular(display.errors))
         throw InputError("errors",
-                         "let lenses stand by themselves, or the array lean, which --lens-mesh does not cover; give shift_mm, "
-                         "gap_mm, rotation_deg and pitch_ppm only");
+                         "misalign single lenses, or tilt the array, which --lens-mesh does not cover; give shift_mm, gap_mm, "
+                         "rotation_deg and pitch_ppm only");
     if (display.array.surround != Surround::opaque)
         throw InputError("array.surround", fmt::format("is \"{}\"; lenses of triangles can only be traced in \"opaque\"",
                                                        word(display.array.surround)));

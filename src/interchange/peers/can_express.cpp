@@ -55,20 +55,17 @@ class Refusals {
         const double lenses = g_.lattice.count[0] * g_.lattice.count[1];
         if (lenses > most_pov_lenses)
             return add("errors",
-                       fmt::format("let {:.0f} lenses differ, each of which has shapes of its own in the scene; at most {:.0f} "
-                                   "may: give a smaller array.count, or give shift_mm, gap_mm, rotation_deg, wedge_deg and "
-                                   "pitch_ppm only",
+                       fmt::format("make {:.0f} lenses differ, each with separate shapes in the scene; at most {:.0f} may: give a "
+                                   "smaller array.count, or give shift_mm, gap_mm, rotation_deg, wedge_deg and pitch_ppm only",
                                    lenses, most_pov_lenses));
         const PovStands stands(d_, g_);
         if (d_.array.surround == Surround::opaque && !stands.walls())
             add("errors",
-                "move lenses so far up, down or aslant that their walls share no height, at which the scene's black sheet could "
-                "be; give "
-                "smaller bow_mm, height_sd_mm, tilt_sd_deg and table, or thicker lenses");
+                "move or tilt lenses so far that their walls have no height in common for the scene's black sheet; give smaller "
+                "bow_mm, height_sd_mm, tilt_sd_deg and table, or thicker lenses");
         if (d_.lens.stop_radius_mm && !stands.level())
             add("lens.stop_radius_mm",
-                "is that of holes in one sheet, and [errors] let lenses stand at different heights; leave out bow_mm, height_sd_mm "
-                "and "
+                "is that of holes in one sheet, but [errors] put lenses at different heights; leave out bow_mm, height_sd_mm and "
                 "heights in the table, or the stop");
     }
 

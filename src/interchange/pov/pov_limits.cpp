@@ -40,8 +40,7 @@ std::vector<std::string> pov_deviations(Display& shown, const Geometry& geometry
                         2 * pov_gap_pitches));
     if (opaque && lenses_differ(shown.errors) && PovStands(shown, geometry).overlap())
         all.push_back(
-            "errors: where lenses overlap, a neighbour's wall or face may meet a lens's light; in lfdsim each is a body of its "
-            "own");
+            "errors: where lenses overlap, a neighbour's wall or face may meet a lens's light; in lfdsim each is a separate body");
     const double least_mm = least_units / pov_units_per_mm(shown, geometry);
     if (least_mm > 1e-4 * shown.array.pitch_mm.least())
         all.push_back(
