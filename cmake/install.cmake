@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 add_library(lfdsim_umbrella INTERFACE)
 add_library(lfdsim::lfdsim ALIAS lfdsim_umbrella)
 set_target_properties(lfdsim_umbrella PROPERTIES EXPORT_NAME lfdsim)
-set(libraries lfdsim_model lfdsim_image lfdsim_engine lfdsim_meshed lfdsim_content lfdsim_files lfdsim_analysis lfdsim_report)
+set(libraries lfdsim_model lfdsim_image lfdsim_engine lfdsim_meshed lfdsim_content lfdsim_inverse lfdsim_files lfdsim_analysis lfdsim_report)
 target_link_libraries(lfdsim_umbrella INTERFACE ${libraries})
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/lfdsim)

@@ -31,6 +31,19 @@ void check_image(const std::string& at, const SceneObject& o, Findings& findings
     if (o.shading != Shading::file) findings.add(at + "shading", "is for models; an image is not lit");
 }
 
+void check_inverse(const Content& c, Findings& findings) {
+    const Inverse& inverse = c.inverse;
+    const std::string at = "content.inverse.";
+    if (findings.sound(at + "levels") && !(inverse.levels[0] < inverse.levels[1]))
+        findings.add(at + "levels", "are {} and {}; the content's black must be darker than its white", inverse.levels[0],
+                     inverse.levels[1]);
+    const std::size_t corners = inverse.eyes_mm.size();
+    if (findings.sound(at + "eyes_mm") && corners != 0 && corners != 2 && corners != 4)
+        findings.add(at + "eyes_mm", "has {} points; give two opposite corners of a box, or four of two boxes", corners);
+    if (c.pickup == PickupKind::inverse && c.sampling == ContentSampling::pixel && findings.sound("content.sampling"))
+        findings.add("content.sampling", "is \"pixel\", which the inverse pick-up cannot do: it finds the light of each subpixel");
+}
+
 }  // namespace
 
 void validate_content(const Display& d, Findings& findings) {
@@ -45,6 +58,7 @@ void validate_content(const Display& d, Findings& findings) {
             "content.model",
             "both content.model and [[content.object]] given; make the model an object, too, or leave one out (--model FILE "
             "shows a file in place of the objects)");
+    check_inverse(c, findings);
     for (std::size_t i = 0; i < c.objects.size(); ++i) {
         const std::string at = fmt::format("content.object.{}.", i);
         check_source(at, c.objects[i], findings);

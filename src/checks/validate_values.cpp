@@ -38,6 +38,9 @@ class RangeCheck {
             return findings_.add(where, "has {} coefficients, allowed are {}", values.size(), max_asphere_terms);
         for (std::size_t i = 0; i < values.size(); ++i) (*this)(fmt::format("{}[{}]", where, i), range, values[i]);
     }
+    void operator()(const std::string& where, const Range& range, const std::vector<Vec3d>& points) {
+        for (std::size_t i = 0; i < points.size(); ++i) (*this)(fmt::format("{}[{}]", where, i), range, points[i]);
+    }
 
   private:
     Findings& findings_;

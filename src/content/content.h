@@ -107,7 +107,8 @@ struct Picture {
 };
 
 /// Elemental images by the display's pick-up, one ray (integrated: content.pickup_rays) for each panel pixel that a lens owns;
-/// the panel's size. threads 0: all. The same bits for any number of threads. Throws InputError for a bad thread count.
+/// the panel's size. threads 0: all. The same bits for any number of threads. Throws InputError for a bad thread count;
+/// std::logic_error for the inverse pick-up, which inverse/inverse.h has.
 Picture elemental_images(const Display&, const Geometry&, const ContentScene&, int threads, Job&);
 
 /// The scene seen directly by the display's camera: one ray through each pixel's centre, or, with a pupil or a pixel filter,

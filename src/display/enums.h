@@ -22,7 +22,8 @@ enum class Surround { opaque, clear, plate };                          // what i
 enum class LatticeKind { square, rectangle, hexagon, brick, strips };  // of the cells in which lenses stand
 enum class Aperture { circle, cell };                                  // cell: the lens fills it
 enum class Profile { box, gaussian };                                  // of the diffuser, per axis
-enum class PickupKind { nodal, traced, integrated };                   // along which lines elemental images look
+enum class PickupKind { nodal, traced, integrated, inverse };          // along which lines elemental images look, or for which eyes
+enum class ErrorOf { eye, light };                                     // whether errors of codes count, or of light
 enum class ContentSampling { subpixel, pixel };                        // for what place elemental images are made
 enum class MadeFor { description, built };                             // whether elemental images know of an array's errors
 enum class Shading { file, smooth, flat };                             // whose normals a mesh is lit by

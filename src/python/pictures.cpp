@@ -1,4 +1,5 @@
 #include "analysis/core/subject.h"
+#include "analysis/pictures/shown_content.h"
 #include "base/counted.h"
 #include "content/content.h"
 #include "engine/devices/memory.h"
@@ -47,7 +48,9 @@ struct PictureWithWarnings {
 PictureWithWarnings elemental(const Display& display, const Geometry& geometry, int threads, Job& job) {
     require_panel_memory(display);
     PictureWithWarnings made;
-    Picture picture = elemental_images(display, geometry, scene_of(display, geometry, made.notes, job), threads, job);
+    ShownContent content = shown_content(display, geometry, scene_of(display, geometry, made.notes, job), threads, job);
+    if (content.inverse) made.notes.insert(made.notes.end(), content.inverse->warnings.begin(), content.inverse->warnings.end());
+    Picture& picture = content.picture;
     if (picture.dark > 0)
         made.notes.push_back(
             fmt::format("the light of {} never leaves its lens: black is shown there",

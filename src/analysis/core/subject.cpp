@@ -1,5 +1,6 @@
 #include "analysis/core/subject.h"
 
+#include "analysis/pictures/shown_content.h"
 #include "analysis/pictures/views.h"
 #include "engine/render.h"
 
@@ -33,7 +34,7 @@ ShownPanel::ShownPanel(Texels texels, int threads) : texels_(std::move(texels)),
 std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geometry& geometry, const ContentScene& scene,
                                             int threads, const Job& job) {
     Quiet quiet(job);
-    const Picture picture = elemental_images(display, geometry, scene, threads, quiet);
+    const Picture picture = shown_content(display, geometry, scene, threads, quiet).picture;
     if (!picture.complete) throw Stopped{};
     return std::make_unique<ShownPanel>(shown_texels(picture.image, display.panel.encoding), threads);
 }

@@ -1,5 +1,6 @@
 #include "analysis/pictures/components.h"
 
+#include "analysis/pictures/shown_content.h"
 #include "analysis/pictures/views.h"
 #include "display/keys.h"
 #include "engine/render.h"
@@ -89,7 +90,7 @@ Result measure_components(Subject& s, Job& job) {
     add("view-close", "The middle sixth of it", enlarged(close, std::max(1, 960 / close.width)));
     {
         Quiet quiet(job);
-        const Picture elemental = elemental_images(d, s.geometry(), s.scene(), s.threads(), quiet);
+        const Picture elemental = shown_content(d, s.geometry(), s.scene(), s.threads(), quiet).picture;
         if (!elemental.complete) throw Stopped{};
         add("elemental", "The elemental images on the panel", reduced(elemental.image, 1920));
         const Rect middle_lenses = middle(elemental.image.width, elemental.image.height, 6 * lens_pixels, 4 * pixels_of_lens(1));

@@ -1,9 +1,11 @@
+#include "analysis/pictures/shown_content.h"
 #include "base/counted.h"
 #include "cli/options/display_options.h"
 #include "cli/options/grid_options.h"
 #include "cli/options/made_for.h"
 #include "cli/options/panel_source.h"
 #include "cli/options/work_options.h"
+#include "cli/output/inverse_report.h"
 #include "cli/output/mapping_export.h"
 #include "cli/program/arguments.h"
 #include "cli/program/commands.h"
@@ -50,7 +52,7 @@ void run(const EiaArguments& args) {
 
     const Geometry geometry = resolve(display);
     Picture picture;
-    std::string of_views;
+    std::string of_views, after;
     Json more = Json::object();
     Progress progress(args.work.progress());
     if (views.given()) {
@@ -62,7 +64,13 @@ void run(const EiaArguments& args) {
         picture.image = pattern(args.pattern.name(), display, geometry, pattern_options);
     } else {
         const ContentScene scene = load_scene(display, geometry);
-        picture = elemental_images(display, geometry, scene, args.work.threads(), progress);
+        ShownContent made = shown_content(display, geometry, scene, args.work.threads(), progress);
+        picture = std::move(made.picture);
+        if (made.inverse) {
+            warn(*made.inverse);
+            after = text_of(*made.inverse);
+            more["inverse"] = json_of(*made.inverse);
+        }
     }
     if (args.mapping.given()) args.mapping.write(display, geometry, args.work.threads());
     if (picture.dark > 0) {
@@ -74,7 +82,7 @@ void run(const EiaArguments& args) {
     if (args.pattern.given()) about[pattern_mark] = args.pattern.name();
     args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress);
     print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
-               args.work.json(), of_views, more);
+               args.work.json(), of_views + after, more);
 }
 
 }  // namespace

@@ -35,8 +35,13 @@ constexpr KeyOption content[] = {
     {"--tilt-deg", "content.tilt_deg", Form::number, "B",
      "Tilt of the model about the horizontal axis, before the yaw; positive raises the front"},
     {"--yaw-deg", "content.yaw_deg", Form::number, "A", "Rotation of the model, counter-clockwise seen from above"},
-    {"--pickup", "content.pickup", Form::word, "nodal|traced|integrated",
-     "Elemental images for a perfect lens, for where the real lens sends each pixel's light, or the mean of all that light"},
+    {"--pickup", "content.pickup", Form::word, "nodal|traced|integrated|inverse",
+     "Elemental images for a perfect lens, for where the real lens sends each pixel's light, the mean of all that light, or the panel "
+     "picture whose views are best (on the CPU)"},
+    {"--eyes-mm", "content.inverse.eyes_mm", Form::box, "X,Y,Z,X,Y,Z",
+     "Inverse pick-up: opposite corners of the box in which eyes are; default: the viewing zone"},
+    {"--levels", "content.inverse.levels", Form::pair, "B,W",
+     "Inverse pick-up: light of the content's black and white, over a white panel's: room to subtract crosstalk in"},
 };
 
 // Within the key's own range.
@@ -53,6 +58,12 @@ std::string toml_value(const KeyOption& option, const Option& value) {
             return fmt::format("{}", value.number());
         case Form::point:
             return fmt::format("[{}]", fmt::join(value.numbers("0,-300,1800"), ", "));
+        case Form::pair:
+            return fmt::format("[{}]", fmt::join(value.numbers("0.1,0.9"), ", "));
+        case Form::box: {
+            const std::vector<double> n = value.numbers("-100,0,450,100,0,450");
+            return fmt::format("[[{}, {}, {}], [{}, {}, {}]]", n[0], n[1], n[2], n[3], n[4], n[5]);
+        }
         case Form::size:
             return fmt::format("[{}]", fmt::join(value.size(), ", "));
         case Form::count:

@@ -13,7 +13,7 @@
 
 namespace lfdsim::cli {
 
-enum class Form { number, point, size, count, word };
+enum class Form { number, pair, point, box, size, count, word };
 
 /// An option that stands for a key of the description.
 struct KeyOption {

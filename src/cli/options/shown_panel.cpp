@@ -1,5 +1,7 @@
 #include "cli/options/shown_panel.h"
 
+#include "analysis/pictures/shown_content.h"
+#include "cli/output/inverse_report.h"
 #include "report/folder/run_settings.h"
 
 namespace lfdsim::cli {
@@ -11,11 +13,15 @@ PanelLight shown_panel(const PanelImageOption& image, const PatternOption& shape
         return {std::move(panel.texels), {{"panel_image", {{"incomplete", panel.incomplete}}}}};
     }
     if (shape.given()) return {shown_texels(pattern(shape.name(), display, geometry, pattern_options), display.panel.encoding)};
-    const Picture picture = elemental_images(display, geometry, load_scene(display, geometry), threads, progress);
+    const auto [picture, inverse] = shown_content(display, geometry, load_scene(display, geometry), threads, progress);
     progress.end();
     if (!picture.complete) end_interrupted("");
-    return {shown_texels(picture.image, display.panel.encoding),
-            {{"elemental_images", {{"rays", picture.rays}, {"seconds", picture.seconds}}}}};
+    Json images = {{"rays", picture.rays}, {"seconds", picture.seconds}};
+    if (inverse) {
+        warn(*inverse);
+        images["inverse"] = json_of(*inverse);
+    }
+    return {shown_texels(picture.image, display.panel.encoding), {{"elemental_images", std::move(images)}}};
 }
 
 Json shown_stamp(const PanelImageOption& image, const PatternOption& shape, const Display& display) {

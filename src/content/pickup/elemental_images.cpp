@@ -248,6 +248,7 @@ RayRequest whole_panel(const Display& display) {
 }  // namespace
 
 Picture elemental_images(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
+    if (display.content.pickup == PickupKind::inverse) throw std::logic_error("the inverse pick-up is that of inverse/inverse.h");
     if (knows_no_errors(display)) {
         const Display meant = without_errors(display);
         return elemental_images(meant, resolve(meant), scene, threads, job);

@@ -6,6 +6,13 @@
 
 namespace lfdsim {
 
+/// Where a ray ends: a panel pixel, row x columns + column (on a panel with subpixels four times that, plus the channel of which alone
+/// there is light, 3: all), and the share of its light that the ray carries. share 0: the ray ends on none.
+struct PanelRay {
+    std::uint32_t place;
+    float share;
+};
+
 /// A tile of the picture: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. Pixel (x, y) goes to
 /// out[((y - crop_y) crop_width + x - crop_x) 3].
 struct Tile {
@@ -15,6 +22,7 @@ struct Tile {
     const float* texels;  // 4 floats a panel pixel
     optics::PanelLight panel;
     float* out;
+    PanelRay* rays = nullptr;  // points: kept here, `samples` for each of the crop's pixels, in place of their light in `out`
     std::int32_t crop_x, crop_y, crop_width;
     std::int32_t x0, y0, x1, y1;
     std::uint32_t samples;

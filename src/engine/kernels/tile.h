@@ -30,6 +30,28 @@ using F = float;
 namespace lfdsim {
 namespace {
 
+/// Keeps the rays of a packet's pixels, those whose light gather() sums. (x, y): the pixel of the first lane.
+template <optics::Facts facts>
+LFDSIM_APART void keep_rays(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel, std::int32_t x,
+                            std::int32_t y) {
+    using Block = optics::Block<F>;
+    optics::Sampler<F> sampler(tile.sampling, tile.dimensions, tile.view->seed, pixel);
+    for (std::uint32_t sample = 0; sample < tile.samples; ++sample) {
+        const optics::Fetch<F> fetch(trace_one<facts>(tile, pixels, sampler));
+        std::uint32_t place[Block::lanes];
+        float share[Block::lanes];
+        optics::store(fetch.place >> optics::Fetch<F>::shift, place);
+        optics::store(fetch.weight, share);
+        for (int k = 0; k < Block::lanes; ++k) {
+            const std::int32_t column = x + k % Block::width, row = y + k / Block::width;
+            if (column < tile.x0 || column >= tile.x1 || row < tile.y0 || row >= tile.y1) continue;
+            const std::int64_t number = std::int64_t(row - tile.crop_y) * tile.crop_width + (column - tile.crop_x);
+            tile.rays[number * tile.samples + sample] = {place[k], share[k]};
+        }
+        sampler.next(*tile.directions);
+    }
+}
+
 template <optics::Facts facts>
 void render_points(const Tile& tile) {
     using Block = optics::Block<F>;
@@ -39,7 +61,12 @@ void render_points(const Tile& tile) {
         for (std::int32_t x = tile.x0 / Block::width * Block::width; x < tile.x1; x += Block::width) {
             const auto pixel =
                 optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
-            const optics::Light<F> light = gather<facts>(tile, optics::pixel_rays<F>(*tile.view, x, y), pixel);
+            const optics::PixelRays<F> pixels = optics::pixel_rays<F>(*tile.view, x, y);
+            if (tile.rays) {
+                keep_rays<facts>(tile, pixels, pixel, x, y);
+                continue;
+            }
+            const optics::Light<F> light = gather<facts>(tile, pixels, pixel);
             for (int k = 0; k < Block::lanes; ++k) {
                 const std::int32_t column = x + k % Block::width, row = y + k / Block::width;
                 if (column < tile.x0 || column >= tile.x1 || row < tile.y0 || row >= tile.y1) continue;

@@ -15,6 +15,7 @@ std::string_view type_text(const std::int64_t&) { return "integer"; }
 std::string_view type_text(const std::string&) { return "string"; }
 std::string_view type_text(const std::vector<double>&) { return "list of numbers"; }
 std::string_view type_text(const std::vector<std::string>&) { return "list of strings"; }
+std::string_view type_text(const std::vector<Vec3d>&) { return "list of points"; }
 std::string_view type_text(const std::optional<Glass>&) { return "string or table"; }
 std::string_view type_text(const std::optional<Vec3d>&) { return "3 numbers"; }
 std::string_view type_text(const Pitch&) { return "number or 2 numbers"; }

@@ -94,6 +94,15 @@ std::string read_value(const toml::node& node, std::vector<std::string>& values)
     return {};
 }
 
+std::string read_value(const toml::node& node, std::vector<Vec3d>& points) {
+    const toml::array* array = node.as_array();
+    if (!array) return wrong_type(node, "a list of points, [[x, y, z], [x, y, z]]");
+    points.assign(array->size(), {});
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (std::string fault = read_value((*array)[i], points[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
+    return {};
+}
+
 std::string read_value(const toml::node& node, Glass& glass) {
     constexpr const char* forms =
         "{ sellmeier = [B1, C1, B2, C2, B3, C3] }, { cauchy = [A, B, C] }, { nd = 1.4918, vd = 57.4 } or another formula of "
@@ -186,6 +195,12 @@ std::string toml_text(const std::vector<std::string>& values) {
 }
 
 // By name where that says all: of a glass that ships, and of one not looked up yet.
+std::string toml_text(const std::vector<Vec3d>& points) {
+    std::string text = "[";
+    for (const Vec3d& point : points) text += (text.size() > 1 ? ", " : "") + toml_text(point);
+    return text + "]";
+}
+
 std::string toml_text(const Glass& glass) {
     const ShippedGlass* shipped = shipped_glass(glass.name);
     if (glass.formula == Formula::unknown || (shipped && shipped->glass == glass)) return toml_text(glass.name);

@@ -20,6 +20,7 @@ std::string read_value(const toml::node&, std::int64_t&);
 std::string read_value(const toml::node&, std::string&);
 std::string read_value(const toml::node&, std::vector<double>&);
 std::string read_value(const toml::node&, std::vector<std::string>&);
+std::string read_value(const toml::node&, std::vector<Vec3d>&);
 std::string read_value(const toml::node&, Glass&);  // a name is not looked up
 std::string read_value(const toml::node&, Pitch&);
 std::string read_word(const toml::node&, std::span<const std::string_view> words, std::size_t& index);
@@ -65,6 +66,7 @@ requires std::is_arithmetic_v<typename List::value_type> std::string toml_text(c
     for (const auto& value : values) text += (text.size() > 1 ? ", " : "") + toml_text(value);
     return text + "]";
 }
+std::string toml_text(const std::vector<Vec3d>&);
 template <class T>
 std::string toml_text(const std::optional<T>& value) {
     return value ? toml_text(*value) : std::string();

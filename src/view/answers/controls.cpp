@@ -16,7 +16,8 @@ namespace lfdsim::view {
 namespace {
 
 // Other parts of a message decide these, or nothing of the picture depends on them.
-constexpr std::string_view left_out[] = {"name", "camera.position_mm", "camera.resolution", "panel.subpixel_cell"};
+constexpr std::string_view left_out[] = {"name", "camera.position_mm", "camera.resolution", "panel.subpixel_cell",
+                                          "content.inverse.eyes_mm"};
 
 std::string label(std::string_view key) {
     for (const std::string_view unit : {"_per_mm", "_mm", "_nm", "_deg"})
@@ -302,9 +303,11 @@ class Lister {
         for (const ShippedGlass& shipped : shipped_glasses()) control["words"].push_back(shipped.glass.name);
     }
 
-    // content.model and glass_catalogues, which are left out
+    // content.model, glass_catalogues, content.inverse.start, which are left out
     void add(Json&, const std::string&, const Range&, std::string&, const std::string*) {}
     void add(Json&, const std::string&, const Range&, std::vector<std::string>&, const std::vector<std::string>*) {}
+    // content.inverse.eyes_mm, which is left out
+    void add(Json&, const std::string&, const Range&, std::vector<Vec3d>&, const std::vector<Vec3d>*) {}
 
     /// Radii that are limited to half the pitch. They shrink with the pitch, which could otherwise not be reduced.
     template <class Visit>

@@ -1,5 +1,6 @@
 #include "view/painting/panels.h"
 
+#include "analysis/pictures/shown_content.h"
 #include "base/free_memory.h"
 #include "content/models/memory.h"
 #include "engine/devices/memory.h"
@@ -54,6 +55,7 @@ Content pose_of(const Display& d, const Geometry& g) {
     pose.sampling = fresh.sampling;
     pose.pickup = fresh.pickup;
     pose.pickup_rays = fresh.pickup_rays;
+    pose.inverse = fresh.inverse;
     return pose;
 }
 
@@ -103,6 +105,11 @@ PanelKey panel_key(const PanelContent& source, const Display& d, const Geometry&
     key.lengths.insert(key.lengths.end(), shown.begin(), shown.end());
     if (d.content.pickup != PickupKind::nodal)
         key.traced = LensContent{d.content.pickup, d.content.pickup_rays, d.panel, d.lens, d.array};
+    if (d.content.pickup == PickupKind::inverse) {  // it looks through the whole display, from eyes of its own
+        key.inverse = d;
+        key.inverse->camera.resolution = {};
+        if (!d.content.inverse.eyes_mm.empty() || std::isfinite(d.content.viewing_distance_mm)) key.inverse->camera.position_mm = {};
+    }
     return key;
 }
 
@@ -180,7 +187,7 @@ std::shared_ptr<const ShownPanel> Panels::make_claimed(const PanelContent& sourc
     if (source.kind == Shown::Kind::pattern)
         return std::make_shared<ShownPanel>(shown_texels(pattern(source.name, display, geometry), panel.encoding), threads);
     const ContentScene posed = scene(source, display, geometry, job);
-    const Picture images = elemental_images(display, geometry, posed, threads, job);
+    const Picture images = shown_content(display, geometry, posed, threads, job).picture;
     if (!images.complete) throw Stopped{};
     return std::make_shared<ShownPanel>(shown_texels(images.image, panel.encoding), threads);
 }

@@ -49,6 +49,7 @@ struct PanelKey {
     Content content;              // of a model or scene: how it stands and what lights it; else a fresh one
     std::vector<double> lengths;  // the display's numbers that elemental images and drawn patterns depend on; empty for others
     std::optional<LensContent> traced = {};  // unless the pick-up is nodal
+    std::optional<Display> inverse = {};     // of the inverse pick-up: all but the place of the eye and the size of its picture
     Errors errors = {};                      // that the panel's light knows of
     bool operator==(const PanelKey&) const = default;
 };

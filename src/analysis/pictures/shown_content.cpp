@@ -1,0 +1,43 @@
+#include "analysis/pictures/shown_content.h"
+
+#include "analysis/core/subject.h"
+#include "analysis/zone/zone.h"
+#include "analysis/zone/zone_search.h"
+
+#include <cmath>
+
+namespace lfdsim {
+
+std::vector<EyeBox> inverse_eyes(const Display& display, const Geometry& geometry, int threads, const Job& job) {
+    if (std::vector<EyeBox> boxes = eye_boxes(display); !boxes.empty()) return boxes;
+    constexpr double half_height_mm = 20;
+    AnalysisOptions options;
+    options.threads = threads;
+    const double made_for = display.content.viewing_distance_mm;
+    if (std::isfinite(made_for)) options.viewing_distance_mm = made_for;
+    const Subject subject(display, {}, options);
+    const double z = subject.viewing_distance_mm(), eye = z - geometry.rear_principal_mm;
+    const ParaxialZone theory = paraxial_zone(subject, 0);
+    EyeBox box{{-eye * theory.half_slope(eye), 0, z}, {eye * theory.half_slope(eye), 0, z}};
+    if (!is_strips(display.array)) box.low[1] = -half_height_mm, box.high[1] = half_height_mm;
+    Subject searched = subject;
+    Quiet quiet(job);
+    ZoneSearch search(searched, quiet, zone_steps(searched));
+    const Zone zone = search.sideways(0, eye * std::min(3 * theory.half_fov, std::tan(1.4)));
+    for (const Interval& limits : zone.limits) {
+        const double low = limits.low.place(), high = limits.high.place();
+        if (limits.empty || !(low < high)) continue;
+        box.low[0] = low;
+        box.high[0] = high;
+        break;
+    }
+    return {box};
+}
+
+ShownContent shown_content(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
+    if (display.content.pickup != PickupKind::inverse) return {elemental_images(display, geometry, scene, threads, job), {}};
+    InvertedPanel made = invert(display, geometry, scene, inverse_eyes(display, geometry, threads, job), threads, job);
+    return {std::move(made.picture), std::move(made.report)};
+}
+
+}  // namespace lfdsim

@@ -1,0 +1,46 @@
+#include "cli/output/inverse_report.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace lfdsim::cli {
+namespace {
+
+Json json_of(const Nearness& n) { return {{"psnr_db", n.psnr_db}, {"ssim", n.ssim}}; }
+
+}  // namespace
+
+void warn(const InverseReport& report) {
+    for (const std::string& warning : report.warnings) spdlog::warn("--pickup inverse: {}", warning);
+}
+
+std::string text_of(const InverseReport& report) {
+    return fmt::format("at eyes that were not fitted: {:.2f} dB, SSIM {:.3f} (traced content: {:.2f} dB, {:.3f}); {} eyes{}, {} steps",
+                       report.held_out.psnr_db, report.held_out.ssim, report.held_out_traced.psnr_db, report.held_out_traced.ssim,
+                       report.places, report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations);
+}
+
+Json json_of(const InverseReport& r) {
+    return {{"places", r.places},
+            {"rim_places", r.rim_places},
+            {"rays", r.rays},
+            {"rays_per_element", r.rays_per_element},
+            {"rows_per_unknown", r.rows_per_unknown},
+            {"rays_per_unknown", r.rays_per_unknown},
+            {"iterations", r.iterations},
+            {"seconds", r.seconds},
+            {"rays_per_second", r.rays_per_second},
+            {"white_light", r.gain},
+            {"black", r.black},
+            {"white", r.white},
+            {"prior", r.prior},
+            {"fitted", json_of(r.fitted)},
+            {"held_out", json_of(r.held_out)},
+            {"held_out_traced", json_of(r.held_out_traced)},
+            {"traced", r.traced},
+            {"at_black_percent", r.at_black_percent},
+            {"at_white_percent", r.at_white_percent},
+            {"unseen_percent", r.unseen_percent}};
+}
+
+}  // namespace lfdsim::cli

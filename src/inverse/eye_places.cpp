@@ -1,0 +1,196 @@
+#include "inverse/eye_places.h"
+
+#include "base/constants.h"
+#include "base/input_error.h"
+#include "base/vec.h"
+#include "geometry/camera.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace lfdsim {
+namespace {
+
+constexpr const char* eyes_key = "content.inverse.eyes_mm";
+constexpr double usual_pupil_mm = 4;
+
+std::string text_of(const Vec3d& p) { return fmt::format("[{:.5g}, {:.5g}, {:.5g}]", p[0], p[1], p[2]); }
+
+/// The solution above 1 of x^(n + 1) = x + 1: the golden ratio for n = 1.
+double generalised_golden_ratio(int n) {
+    double x = 1.5;
+    for (int step = 0; step < 50; ++step) x = std::pow(1 + x, 1. / (n + 1));
+    return x;
+}
+
+/// Place k of the recurrence in a box.
+Vec3d place_in(const EyeBox& box, std::int64_t k) {
+    int dimensions = 0;
+    for (std::size_t c = 0; c < 3; ++c) dimensions += box.high[c] > box.low[c];
+    if (dimensions == 0) return box.low;
+    const double step = 1 / generalised_golden_ratio(dimensions);
+    Vec3d place = box.low;
+    double share = 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (!(box.high[c] > box.low[c])) continue;
+        share *= step;
+        const double at = 0.5 + double(k + 1) * share;
+        place[c] += (at - std::floor(at)) * (box.high[c] - box.low[c]);
+    }
+    return place;
+}
+
+bool is_inside(const EyeBox& box, const Vec3d& p) {
+    for (std::size_t c = 0; c < 3; ++c)
+        if (p[c] < box.low[c] || p[c] > box.high[c]) return false;
+    return true;
+}
+
+/// Half the width and half the height of the array as slopes from the eye's line of sight.
+std::array<double, 2> half_slopes(const Geometry& g, const Vec3d& eye, const CameraAxes& axes) {
+    std::array<double, 2> most{};
+    const double turn = g.turn_deg * degree, c = std::cos(turn), s = std::sin(turn);
+    for (const double i : {-0.5, 0.5})
+        for (const double j : {-0.5, 0.5}) {
+            const double x = i * g.array_width_mm, y = j * g.array_height_mm;
+            const Vec3d corner{g.lattice.offset[0] + c * x - s * y, g.lattice.offset[1] + s * x + c * y, g.vertex_plane_mm};
+            const Vec3d ray = minus(corner, eye);
+            const double depth = dot(ray, axes.forward);
+            if (!(depth > 0))
+                throw InputError(eyes_key, fmt::format("from {} the array is not in front of the eye", text_of(eye)));
+            most[0] = std::max(most[0], std::abs(dot(ray, axes.right)) / depth);
+            most[1] = std::max(most[1], std::abs(dot(ray, axes.up)) / depth);
+        }
+    return most;
+}
+
+}  // namespace
+
+std::vector<EyeBox> eye_boxes(const Display& display) {
+    const std::vector<Vec3d>& corners = display.content.inverse.eyes_mm;
+    std::vector<EyeBox> boxes;
+    for (std::size_t k = 0; k + 1 < corners.size(); k += 2) {
+        EyeBox box;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto finite = [&](double mm) { return std::isinf(mm) ? display.camera.position_mm[c] : mm; };
+            const double a = finite(corners[k][c]), b = finite(corners[k + 1][c]);
+            box.low[c] = std::min(a, b);
+            box.high[c] = std::max(a, b);
+        }
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+double view_step_mm(const Display& display, const Geometry& geometry, double z_mm) {
+    const double step = (z_mm - geometry.rear_principal_mm) * display.panel.pixel_pitch_mm / geometry.gap_mm;
+    return is_strips(display.array) && display.panel.subpixels != SubpixelLayout::none ? step / 3 : step;
+}
+
+std::int64_t views_within(std::span<const EyeBox> boxes, const Display& display, const Geometry& geometry) {
+    double views = 0;
+    for (const EyeBox& box : boxes) {
+        const double step = view_step_mm(display, geometry, box.low[2]);
+        const double side = std::max(box.high[0] - box.low[0], is_strips(display.array) ? 0 : box.high[1] - box.low[1]);
+        views += std::ceil(side / step);
+    }
+    if (views == 0) return std::int64_t(boxes.size());
+    return std::max<std::int64_t>(2, std::int64_t(std::min(views, 1e6)));
+}
+
+std::vector<Vec3d> places_within(std::span<const EyeBox> boxes, std::int64_t first, std::int64_t count) {
+    std::vector<Vec3d> places;
+    const auto n = std::int64_t(boxes.size());
+    for (std::int64_t k = first; k < first + count; ++k) places.push_back(place_in(boxes[std::size_t(k % n)], k / n));
+    return places;
+}
+
+std::vector<Vec3d> places_around(std::span<const EyeBox> boxes, const Display& display, const Geometry& geometry, double view_steps,
+                                 std::int64_t count) {
+    std::vector<Vec3d> places;
+    if (!(view_steps > 0)) return places;
+    std::vector<EyeBox> wider(boxes.begin(), boxes.end());
+    for (EyeBox& box : wider) {
+        const double reach = view_steps * view_step_mm(display, geometry, box.low[2]);
+        for (const std::size_t c : {0u, 1u}) box.low[c] -= reach, box.high[c] += reach;
+    }
+    for (std::int64_t k = 0; std::int64_t(places.size()) < count; ++k) {
+        const Vec3d place = places_within(wider, k, 1)[0];
+        if (std::none_of(boxes.begin(), boxes.end(), [&](const EyeBox& box) { return is_inside(box, place); }))
+            places.push_back(place);
+    }
+    return places;
+}
+
+double element_mm(const Display& display, const Geometry& geometry, const Vec3d& eye, double content_z_mm) {
+    if (display.content.inverse.pixel_mm) return *display.content.inverse.pixel_mm;
+    double finest = std::min(display.array.pitch_mm[0], is_strips(display.array) ? display.array.pitch_mm[0] : display.array.pitch_mm[1]);
+    const double image = theory(display, geometry).pixel_image_mm;  // NaN of pinholes, which have no image plane
+    if (image < finest) finest = image;
+    // Stripes of subpixels: an element must average over the colours of the rows that it sees, wherever it lies.
+    if (display.panel.subpixels != SubpixelLayout::none) finest = std::max(finest, 12 * display.panel.pixel_pitch_mm);
+    const double arc_minute = std::abs(eye[2] - content_z_mm) * std::tan(degree / 60);
+    return std::max(finest / 2, arc_minute);
+}
+
+namespace {
+
+void give_pupil(Display& d) {
+    d.camera.pixel_filter = PixelFilter::box;
+    d.camera.pupil_diameter_mm = d.content.inverse.pupil_mm.value_or(d.camera.pupil_diameter_mm.value_or(usual_pupil_mm));
+    d.render.estimator = Estimator::point;
+}
+
+void refuse_unseen(const Display& d) {
+    for (const Problem& problem : validate(d))
+        throw InputError(eyes_key, fmt::format("an eye at {} cannot see the display: {} {}", text_of(d.camera.position_mm), problem.where,
+                                               problem.what));
+}
+
+}  // namespace
+
+Display seen_by_camera_at(const Display& display, const Geometry& geometry, const Vec3d& eye, std::array<std::int64_t, 2> resolution) {
+    Display d = display;
+    d.camera.position_mm = eye;
+    d.camera.resolution = resolution;
+    d.camera.fov_deg.reset();
+    d.camera.frame_width_mm = geometry.frame_width_mm;
+    give_pupil(d);
+    refuse_unseen(d);
+    return d;
+}
+
+Display seen_by_eye(const Display& display, const Geometry& geometry, const Vec3d& eye, double content_z_mm, double shift_x,
+                    double shift_y) {
+    const double front = std::max(geometry.top_z_mm, geometry.diffuser_z_mm.value_or(0));
+    if (!(eye[2] > front))
+        throw InputError(eyes_key, fmt::format("an eye at {} is not in front of the display, which reaches to z = {:.5g} mm",
+                                               text_of(eye), front));
+    Display d = display;
+    Camera& camera = d.camera;
+    camera.position_mm = eye;
+    camera.target_mm = {0, 0, 0};
+    const CameraAxes axes = camera_axes(camera);
+    const Vec3d middle{0, 0, content_z_mm};
+    const double focus = dot(minus(middle, eye), axes.forward);
+    if (!(focus > 0)) throw InputError(eyes_key, fmt::format("an eye at {} is not in front of the content's middle", text_of(eye)));
+    const std::array<double, 2> half = half_slopes(geometry, eye, axes);
+    const double slope = element_mm(display, geometry, eye, content_z_mm) / focus;  // of an element
+    const double columns = std::ceil(2 * half[0] / slope) + 2, rows = std::ceil(2 * half[1] / slope) + 2;
+    if (!(columns * rows < 1e8))
+        throw InputError("content.inverse.pixel_mm",
+                         fmt::format("a view from {} has {:.0f} x {:.0f} elements; give larger ones", text_of(eye), columns, rows));
+    camera.resolution = {std::int64_t(columns), std::int64_t(rows)};
+    camera.fov_deg.reset();
+    camera.frame_width_mm = columns * slope * axes.distance_mm;
+    const double element_at_target = slope * axes.distance_mm;
+    for (std::size_t c = 0; c < 3; ++c)
+        camera.target_mm[c] += element_at_target * ((shift_x - 0.5) * axes.right[c] + (shift_y - 0.5) * axes.up[c]);
+    camera.focus_distance_mm = focus;
+    give_pupil(d);
+    refuse_unseen(d);
+    return d;
+}
+
+}  // namespace lfdsim

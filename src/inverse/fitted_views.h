@@ -1,0 +1,74 @@
+// The views that are fitted or compared: what each eye should see, its rows, and their products with the panel's light. Floor 3.
+#pragma once
+#include "base/job.h"
+#include "image/image.h"
+#include "inverse/nearness.h"
+#include "inverse/view_rows.h"
+
+#include <optional>
+#include <vector>
+
+namespace lfdsim {
+
+/// The light of a panel: four numbers a pixel (R, G, B, unused), 1 = white.
+using PanelVector = std::vector<float>;
+
+/// What an eye should see, and how much each element of its view counts.
+struct View {
+    ViewRows rows;
+    float weight;                       // of its errors
+    Image content;                      // what it should see, in the content's own light
+    Image white;                        // what it sees of a white panel
+    std::vector<std::uint8_t> counted;  // elements: 1 where it sees the array well inside its border
+};
+
+/// From the content's light to a view's: black and white of the content in light over a white panel's, and the light of a white panel.
+struct Exposure {
+    double black, white, gain;
+    float of(float content) const { return float(gain * (black + (white - black) * double(content))); }
+    float content_of(float light) const { return float((double(light) / gain - black) / (white - black)); }
+};
+
+class FittedViews {
+  public:
+    FittedViews(std::vector<View>, bool entries_are_pixels, bool errors_of_codes, Exposure);
+
+    const std::vector<View>& views() const { return views_; }
+    /// Makes rows and keeps them while they take no more bytes; the others are made again at each product, with the same result.
+    /// Returns the bytes taken. A cancelled job keeps no more.
+    double keep_rows(double bytes, const Job& job);
+
+    /// M'VU(M 1), the bound of the solver; sets the scale of later sums. Columns of pixels that no counted element sees are 0.
+    PanelVector bound(std::size_t size);
+    /// half = M'VU(M x - t), and half the sum of squares. Sums are integers, so the order in which threads add does not matter.
+    double half_gradient(const PanelVector& x, PanelVector& half);
+    /// What view k sees of a panel, in the content's light.
+    Image seen(std::size_t k, const PanelVector& x) const;
+    /// Over the counted elements of view k.
+    Nearness nearness(std::size_t k, const PanelVector& x) const;
+
+    std::int64_t rays() const;
+    /// Rows with light among the counted ones, and rays with light in them, estimated by their entries before they are merged.
+    std::int64_t counted_rows() const;
+
+  private:
+    struct Strip {  // rows y0 to y1 - 1 of a view
+        std::size_t view;
+        int y0, y1;
+        std::optional<Rows> kept = {};
+    };
+    template <class Do>
+    void for_strip(const Strip&, const Do&) const;
+    template <bool pixels>
+    double add_products(const Strip&, const PanelVector& x, bool of_target, std::vector<std::int64_t>* sums, double& largest) const;
+    double products(const PanelVector& x, bool of_target, std::vector<std::int64_t>* sums, double& largest) const;
+    float weight_of(float content) const { return errors_of_codes_ ? 1 / (std::max(content, 0.f) + 0.05f) : 1; }
+
+    std::vector<View> views_;
+    bool pixels_, errors_of_codes_;
+    Exposure exposure_;
+    std::vector<Strip> strips_;
+    double per_unit_ = 0;  // integers for a unit of the sums
+};
+
+}  // namespace lfdsim

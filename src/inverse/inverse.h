@@ -1,0 +1,56 @@
+// Content by inversion: the panel picture whose views are best, by the display's own tracer. Floor 3.
+#pragma once
+#include "content/content.h"
+#include "inverse/eye_places.h"
+#include "inverse/nearness.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lfdsim {
+
+/// What an eye should see: the picture of a display's camera, `samples` rays a pixel.
+using ContentOf = std::function<Image(const Display& seen, const Geometry&, std::int64_t samples, int threads, Job&)>;
+/// That of a scene: its photograph.
+ContentOf photographs_of(const ContentScene&);
+
+/// Given pictures in place of a scene: what the display's camera, moved to each of these eyes, should see. Light, the camera's size.
+struct EyePictures {
+    std::vector<Vec3d> eyes_mm;
+    std::vector<Image> pictures;
+};
+
+struct InverseReport {
+    std::int64_t places = 0, rim_places = 0;  // eyes fitted in the boxes and around them
+    std::int64_t rays = 0;                    // of all elements of all fitted views
+    std::int64_t rays_per_element = 0;
+    double rows_per_unknown = 0, rays_per_unknown = 0;  // elements of views, and their rays with light, for each panel pixel met
+    int iterations = 0;
+    double seconds = 0, rays_per_second = 0;
+    double gain = 0;  // light of a white panel at these eyes
+    double black = 0, white = 1, prior = 0;
+    Nearness fitted, held_out, held_out_traced;                                      // means over eyes
+    double at_black_percent = 0, at_white_percent = 0, unseen_percent = 0;           // of the panel's subpixels
+    bool traced = false;                                                             // traced content served held-out eyes better
+    std::vector<std::string> warnings;
+};
+
+struct InvertedPanel {
+    Picture picture;
+    InverseReport report;
+};
+
+/// The panel picture of a scene by the inverse pick-up: least squares over the panel's light, between 0 and 1, of what eyes in the boxes see
+/// (docs/inverse.md has the equations). Stopped after the first step it returns the best panel so far, before that traced content, and
+/// the picture is not complete. The same bits for any number of threads and kernel. Throws InputError for eyes that cannot see the display,
+/// and where memory is short.
+InvertedPanel invert(const Display&, const Geometry&, const ContentScene&, std::span<const EyeBox>, int threads, Job&);
+
+/// The same for given pictures; there are no held-out eyes, and the last panel is taken.
+InvertedPanel invert(const Display&, const Geometry&, const EyePictures&, int threads, Job&);
+
+}  // namespace lfdsim

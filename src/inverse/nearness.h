@@ -1,0 +1,11 @@
+// How near what an eye sees comes to what it should see. Floor 3.
+#pragma once
+
+namespace lfdsim {
+
+/// PSNR of sRGB codes, dB, and SSIM of luma.
+struct Nearness {
+    double psnr_db = 0, ssim = 0;
+};
+
+}  // namespace lfdsim

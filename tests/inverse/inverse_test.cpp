@@ -1,0 +1,171 @@
+// Content by inversion: its matrix is the renderer, its adjoint the matrix's, and its solver finds the minimum.
+#include "inverse/inverse.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <random>
+
+#include "../engine/pictures.h"
+#include "../sanitizers.h"
+#include "files/description/display_file.h"
+#include "inverse/box_solver.h"
+#include "inverse/fitted_views.h"
+
+namespace lfdsim {
+namespace {
+
+/// The displays that ship, each with few pixels of its camera, its middle in them.
+std::vector<std::pair<std::string, Display>> shipped_displays() {
+    std::vector<std::pair<std::string, Display>> all;
+    for (const char* name : {"barrier", "desktop-asphere", "desktop-asphere-bare", "desktop-asphere-colour", "desktop-clear", "desktop-doublet",
+                             "desktop-ideal", "desktop-plate", "desktop-spherical", "desktop-stopped", "hexagon", "tablet-lenticular"}) {
+        Display d = read_display(std::string(LFDSIM_SOURCE_DIR "/displays/") + name + ".toml", {});
+        d.camera.resolution = {24, 16};
+        d.camera.frame_width_mm = resolve(d).frame_width_mm / 8;
+        d.camera.fov_deg.reset();
+        d.camera.pixel_filter = PixelFilter::box;
+        d.render.estimator = Estimator::point;
+        d.render.samples = 36;
+        all.emplace_back(name, d);
+    }
+    return all;
+}
+
+PanelVector random_vector(std::size_t size, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    PanelVector x(size);
+    for (float& one : x) one = float(random() >> 40) / float(1 << 24);
+    return x;
+}
+
+/// A view whose rows are not scaled: it sees of a white panel what its rows do.
+View plain_view(const Display& d) {
+    const Geometry g = resolve(d);
+    View view{ViewRows(d, g), 1, Image(int(d.camera.resolution[0]), int(d.camera.resolution[1])), {}, {}};
+    Texels white = uniform_panel(d, 1);
+    view.white = picture(d, white);
+    view.counted.assign(view.white.rgb.size() / 3, 1);
+    return view;
+}
+
+TEST(ViewRows, AreThoseOfTheRenderer) {
+    for (const auto& [name, d] : shipped_displays()) {
+        const Texels panel = noise_panel(d);
+        const PanelVector x(panel.data(), panel.data() + panel.columns() * panel.rows() * 4);
+        const Image rendered = picture(d, panel);
+        const ViewRows rows(d, resolve(d));
+        const Rows all = rows.of(0, rows.height());
+        const bool pixels = entries_are_pixels(d);
+        for (std::size_t p = 0; p < rendered.rgb.size() / 3; ++p)
+            for (std::size_t c = 0; c < 3; ++c) {
+                double sum = 0;
+                for (const PanelRay& ray : all.row(p))
+                    if (pixels || (ray.place & 3) == c) sum += double(ray.share) * double(x[pixels ? ray.place * 4ull + c : ray.place]);
+                ASSERT_NEAR(sum, rendered.rgb[3 * p + c], 1e-6) << name << ", element " << p << ", channel " << c;
+            }
+    }
+}
+
+// <M x, y> = <x, M'y>: the half gradient at x less that at 0 is M'VU M x, which is symmetric.
+TEST(FittedViews, HalfGradientIsTheAdjoint) {
+    for (const auto& [name, d] : shipped_displays()) {
+        std::vector<View> views;
+        views.push_back(plain_view(d));
+        FittedViews fitted(std::move(views), entries_are_pixels(d), false, {0, 1, 1});
+        const std::size_t size = std::size_t(d.panel.pixels[0] * d.panel.pixels[1]) * 4;
+        fitted.bound(size);
+        const PanelVector x = random_vector(size, 1), y = random_vector(size, 2);
+        PanelVector of_x, of_y, of_0;
+        fitted.half_gradient(x, of_x);
+        fitted.half_gradient(y, of_y);
+        fitted.half_gradient(PanelVector(size, 0), of_0);
+        double xy = 0, yx = 0;
+        for (std::size_t j = 0; j < size; ++j) {
+            xy += double(y[j]) * double(of_x[j] - of_0[j]);
+            yx += double(x[j]) * double(of_y[j] - of_0[j]);
+        }
+        EXPECT_GT(xy, 0) << name;
+        EXPECT_NEAR(xy, yx, 1e-6 * xy) << name;
+        // |M x|^2 = <x, M'M x>
+        const double half_squares = fitted.half_gradient(x, of_x);
+        double xx = 0;
+        for (std::size_t j = 0; j < size; ++j) xx += double(x[j]) * double(of_x[j]);
+        EXPECT_NEAR(xx, 2 * half_squares, 1e-6 * xx) << name;
+    }
+}
+
+// Rows that are kept and rows that are made again have the same bits.
+TEST(FittedViews, KeptRowsChangeNoBit) {
+    for (const auto& [name, d] : shipped_displays()) {
+        std::vector<View> views;
+        views.push_back(plain_view(d));
+        FittedViews fitted(std::move(views), entries_are_pixels(d), true, {0.1, 0.9, 0.8});
+        const std::size_t size = std::size_t(d.panel.pixels[0] * d.panel.pixels[1]) * 4;
+        fitted.bound(size);
+        PanelVector made, kept;
+        const double first = fitted.half_gradient(random_vector(size, 3), made);
+        EXPECT_GT(fitted.keep_rows(1e9, Job()), 0);
+        EXPECT_EQ(fitted.half_gradient(random_vector(size, 3), kept), first) << name;
+        EXPECT_EQ(made, kept) << name;
+    }
+}
+
+/// The minimum of |M x - t|^2 + p |x - c|^2 in the box by another method, in double precision: coordinates in turn, each at its own minimum.
+std::vector<double> by_coordinates(const std::vector<std::vector<double>>& m, const std::vector<double>& t, const std::vector<float>& centre,
+                                   double prior) {
+    const std::size_t unknowns = centre.size();
+    std::vector<double> x(centre.begin(), centre.end());
+    for (int sweep = 0; sweep < 20000; ++sweep) {
+        double change = 0;
+        for (std::size_t j = 0; j < unknowns; ++j) {
+            double slope = prior * (x[j] - double(centre[j])), bend = prior;
+            for (std::size_t r = 0; r < m.size(); ++r) {
+                double seen = -t[r];
+                for (std::size_t k = 0; k < unknowns; ++k) seen += m[r][k] * x[k];
+                slope += m[r][j] * seen;
+                bend += m[r][j] * m[r][j];
+            }
+            const double next = std::clamp(x[j] - slope / bend, 0., 1.);
+            change = std::max(change, std::abs(next - x[j]));
+            x[j] = next;
+        }
+        if (change < 1e-10) break;
+    }
+    return x;
+}
+
+TEST(BoxSolver, FindsTheMinimumOfASmallPanel) {
+    constexpr std::size_t unknowns = 12 * 8, rows = 300;
+    std::mt19937_64 random(5);
+    const auto uniform = [&] { return double(random() >> 11) * 0x1p-53; };
+    std::vector<std::vector<double>> m(rows, std::vector<double>(unknowns, 0));
+    std::vector<double> t(rows);
+    for (std::size_t r = 0; r < rows; ++r) {
+        for (int k = 0; k < 4; ++k) m[r][std::size_t(uniform() * double(unknowns))] += 0.25;
+        t[r] = 1.6 * uniform() - 0.3;  // beyond what light can be, so that the box matters
+    }
+    std::vector<float> centre(unknowns, 0.4f), bound(unknowns, 0), gradient(unknowns);
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t j = 0; j < unknowns; ++j) bound[j] += float(m[r][j]);  // M'(M 1), each row's sum is 1
+    const double prior = 0.01;
+    BoxSolver solver(centre, centre, bound, prior);
+    for (int step = 0; step < 3000; ++step) {
+        std::fill(gradient.begin(), gradient.end(), 0.f);
+        for (std::size_t r = 0; r < rows; ++r) {
+            double error = -t[r];
+            for (std::size_t j = 0; j < unknowns; ++j) error += m[r][j] * double(solver.point()[j]);
+            for (std::size_t j = 0; j < unknowns; ++j) gradient[j] += float(m[r][j] * error);
+        }
+        solver.step(gradient);
+    }
+    const std::vector<double> wanted = by_coordinates(m, t, centre, prior);
+    int at_ends = 0;
+    for (std::size_t j = 0; j < unknowns; ++j) {
+        EXPECT_NEAR(double(solver.x()[j]), wanted[j], 1e-4) << j;
+        at_ends += wanted[j] == 0 || wanted[j] == 1;
+    }
+    EXPECT_GT(at_ends, 5);
+}
+
+}  // namespace
+}  // namespace lfdsim
