@@ -72,15 +72,33 @@ def render(
 
 
 def elemental_images(
-    display: Display, *, model: Model = None, pickup: str | None = None, threads: int = 0, progress: Progress = None
+    display: Display,
+    *,
+    model: Model = None,
+    pickup: str | None = None,
+    targets: Sequence[ArrayLike] | None = None,
+    target_eyes_mm: Sequence[Sequence[float]] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> Picture:
     """The panel's picture of the display's model, or of `model`: linear light, not yet rounded to codes (see panel_codes).
 
-    pickup: "nodal", "traced" or "integrated"; default: the display's.
+    pickup: "nodal", "traced", "integrated" or "inverse"; default: the display's.
+    targets: with pickup="inverse", pictures that eyes should see in place of a scene: linear light, (rows, columns, 3), each as the
+        display's camera frames it from that eye. target_eyes_mm: (x, y, z) of these eyes.
     """
     made_for = seen(display, model, pickup=pickup)
+    if (targets is None) != (target_eyes_mm is None):
+        raise InputError([("targets, target_eyes_mm", "belong together; give a picture and a place for each eye")])
+    if targets is not None and (model is not None or made_for["content.pickup"] != "inverse"):
+        raise InputError([("targets", 'are what pickup="inverse" shows in place of a model; give that pickup, and no model')])
     with shown(progress) as report:
-        image, notes = _core.elemental_images(made_for._handle, threads_of(threads), report)
+        if targets is not None:
+            pictures = [np.ascontiguousarray(target, dtype=np.float32) for target in targets]
+            eyes = [tuple(float(x) for x in eye) for eye in target_eyes_mm or ()]
+            image, notes = _core.invert_pictures(made_for._handle, pictures, eyes, threads_of(threads), report)
+        else:
+            image, notes = _core.elemental_images(made_for._handle, threads_of(threads), report)
     warn(notes)
     return image
 

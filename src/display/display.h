@@ -181,19 +181,19 @@ struct SceneObject {
 
 /// The inverse pick-up (docs/inverse.md): the panel picture whose views are best.
 struct Inverse {
-    std::vector<Vec3d> eyes_mm;              // opposite corners of boxes of eye places, two for each box; default: the viewing zone
-    std::array<double, 2> levels{0, 1};      // light of the content's black and white, over that of a white panel
-    std::optional<std::int64_t> places;      // eyes fitted
-    std::optional<std::int64_t> rays;        // of an element of a view
-    std::int64_t held_out = 8;               // further eyes, never fitted, which choose the panel
-    std::optional<double> rim;               // view steps around a box in which further eyes count a quarter; default 2, of strips 0
-    std::optional<double> pupil_mm;          // default: the camera's, else 4
-    std::optional<double> pixel_mm;          // an element of a view, in the plane of the content's middle
-    std::optional<double> prior;             // pull to traced content; default 0.003
+    std::vector<Vec3d> eyes_mm;          // opposite corners of boxes of eye places, two for each box; default: the viewing zone
+    std::array<double, 2> levels{0, 1};  // light of the content's black and white, over that of a white panel
+    std::optional<std::int64_t> places;  // eyes fitted
+    std::optional<std::int64_t> rays;    // of an element of a view
+    std::int64_t held_out = 8;           // further eyes, never fitted, which choose the panel
+    std::optional<double> rim;           // view steps around a box in which further eyes count a quarter; default 2, of strips 0
+    std::optional<double> pupil_mm;      // default: the camera's, else 4
+    std::optional<double> pixel_mm;      // an element of a view, in the plane of the content's middle
+    std::optional<double> prior;         // pull to traced content; default 0.001
     ErrorOf weighting = ErrorOf::eye;
-    std::int64_t iterations = 20;            // at most
-    std::string start;                       // picture that the fit begins with; empty: traced content
-    std::optional<double> memory_mb;         // for rays that are kept; default: half of what is free
+    std::int64_t iterations = 20;     // at most
+    std::string start;                // picture that the fit begins with; empty: traced content
+    std::optional<double> memory_mb;  // for rays that are kept; default: half of what is free
     bool operator==(const Inverse&) const = default;
 };
 

@@ -38,7 +38,8 @@ using ValuesOf =
                  Of<std::optional<std::array<std::int64_t, 2>>>, Of<std::vector<double>>, Of<Pitch>, Of<Encoding>,
                  Of<std::optional<Vec3d>>, Of<std::optional<Glass>>, Of<std::vector<std::string>>, Of<SubpixelLayout>, Of<Channel>,
                  Of<LensKind>, Of<Facing>, Of<Surround>, Of<LatticeKind>, Of<Aperture>, Of<Profile>, Of<PixelFilter>,
-                 Of<ContentSampling>, Of<MadeFor>, Of<PickupKind>, Of<ErrorOf>, Of<std::vector<Vec3d>>, Of<Shading>, Of<Estimator>, Of<Sampling>, Of<Fresnel>>;
+                 Of<ContentSampling>, Of<MadeFor>, Of<PickupKind>, Of<ErrorOf>, Of<std::vector<Vec3d>>, Of<Shading>, Of<Estimator>,
+                 Of<Sampling>, Of<Fresnel>>;
 
 /// What a key fills. Only Display, Panel, SurfaceLens and Content contain tables: one that is always there, one that may be
 /// absent, or a list; the keys of a kind stand beside its word.
@@ -67,8 +68,8 @@ struct MemberOf<SurfaceLens> {
 template <>
 struct MemberOf<Content> {
     using Type = std::variant<std::string Content::*, double Content::*, std::int64_t Content::*, std::optional<double> Content::*,
-                              ContentSampling Content::*, MadeFor Content::*, PickupKind Content::*, Inverse Content::*, Light Content::*,
-                              std::vector<SceneObject> Content::*>;
+                              ContentSampling Content::*, MadeFor Content::*, PickupKind Content::*, Inverse Content::*,
+                              Light Content::*, std::vector<SceneObject> Content::*>;
 };
 
 /// What a text in a description is. A text that nothing is said of counts as a file's name, which visitors of the viewer may
@@ -121,8 +122,9 @@ template <> const Table<Render>& table_of<Render>();
 template <class T, class... Structs>
 inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
 template <class T>
-inline constexpr bool has_table = is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole,
-                                            Surface, LensArray, Errors, Diffuser, Camera, Content, Inverse, Light, SceneObject, Render>;
+inline constexpr bool has_table =
+    is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole, Surface, LensArray, Errors,
+              Diffuser, Camera, Content, Inverse, Light, SceneObject, Render>;
 
 /// How a field of a struct is a table within it.
 enum class PartKind { value, table, optional, list, kinds };

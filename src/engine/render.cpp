@@ -1,5 +1,6 @@
 #include "engine/render.h"
 
+#include "base/on_threads.h"
 #include "display/colour.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/gpu.h"
@@ -11,11 +12,8 @@
 #include "engine/scene/work.h"
 
 #include <tbb/blocked_range2d.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -54,16 +52,6 @@ Done for_tiles(const Tile& whole, Job& job, const Paint& paint) {
         },
         tbb::simple_partitioner());
     return {taken, complete};
-}
-
-/// do_it() with so many threads.
-template <class Do>
-auto on_threads(int threads, const Do& do_it) {
-    // TBB uses at most as many threads as there are processors unless set otherwise; the user may ask for more.
-    const tbb::global_control workers(tbb::global_control::max_allowed_parallelism,
-                                      std::size_t(std::max(threads, tbb::info::default_concurrency())));
-    tbb::task_arena arena(threads);
-    return arena.execute(do_it);
 }
 
 /// Renders by the estimator of the work's tile.

@@ -5,8 +5,9 @@
 namespace lfdsim {
 
 /// Minimises |Mx - t|^2 + sum_j p_j (x_j - c_j)^2 over 0 <= x_j <= 1 for a matrix M >= 0, which the caller applies. FISTA (A. Beck,
-/// M. Teboulle, SIAM J. Imaging Sci. 2, 2009) in the metric of the diagonal d = M'(M 1) + p, which bounds M'M + p for any M >= 0, so
-/// that no step has to be searched; it starts anew where it turns back (B. O'Donoghue, E. Candes, Found. Comput. Math. 15, 2015).
+/// M. Teboulle, SIAM J. Imaging Sci. 2, 2009) in the metric of the diagonal d = M'(M 1) + p, which bounds M'M + p for any M >= 0,
+/// so that no step has to be searched; it starts anew where it turns back (B. O'Donoghue, E. Candes, Found. Comput. Math. 15,
+/// 2015).
 class BoxSolver {
   public:
     /// `bound` = M'(M 1); where it is 0 nothing is known, and x stays at the start. p_j = prior for all others. All of one size.

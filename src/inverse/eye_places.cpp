@@ -57,8 +57,7 @@ std::array<double, 2> half_slopes(const Geometry& g, const Vec3d& eye, const Cam
             const Vec3d corner{g.lattice.offset[0] + c * x - s * y, g.lattice.offset[1] + s * x + c * y, g.vertex_plane_mm};
             const Vec3d ray = minus(corner, eye);
             const double depth = dot(ray, axes.forward);
-            if (!(depth > 0))
-                throw InputError(eyes_key, fmt::format("from {} the array is not in front of the eye", text_of(eye)));
+            if (!(depth > 0)) throw InputError(eyes_key, fmt::format("from {} the array is not in front of the eye", text_of(eye)));
             most[0] = std::max(most[0], std::abs(dot(ray, axes.right)) / depth);
             most[1] = std::max(most[1], std::abs(dot(ray, axes.up)) / depth);
         }
@@ -125,7 +124,8 @@ std::vector<Vec3d> places_around(std::span<const EyeBox> boxes, const Display& d
 
 double element_mm(const Display& display, const Geometry& geometry, const Vec3d& eye, double content_z_mm) {
     if (display.content.inverse.pixel_mm) return *display.content.inverse.pixel_mm;
-    double finest = std::min(display.array.pitch_mm[0], is_strips(display.array) ? display.array.pitch_mm[0] : display.array.pitch_mm[1]);
+    double finest =
+        std::min(display.array.pitch_mm[0], is_strips(display.array) ? display.array.pitch_mm[0] : display.array.pitch_mm[1]);
     const double image = theory(display, geometry).pixel_image_mm;  // NaN of pinholes, which have no image plane
     if (image < finest) finest = image;
     // Stripes of subpixels: an element must average over the colours of the rows that it sees, wherever it lies.
@@ -144,13 +144,14 @@ void give_pupil(Display& d) {
 
 void refuse_unseen(const Display& d) {
     for (const Problem& problem : validate(d))
-        throw InputError(eyes_key, fmt::format("an eye at {} cannot see the display: {} {}", text_of(d.camera.position_mm), problem.where,
-                                               problem.what));
+        throw InputError(eyes_key, fmt::format("an eye at {} cannot see the display: {} {}", text_of(d.camera.position_mm),
+                                               problem.where, problem.what));
 }
 
 }  // namespace
 
-Display seen_by_camera_at(const Display& display, const Geometry& geometry, const Vec3d& eye, std::array<std::int64_t, 2> resolution) {
+Display seen_by_camera_at(const Display& display, const Geometry& geometry, const Vec3d& eye,
+                          std::array<std::int64_t, 2> resolution) {
     Display d = display;
     d.camera.position_mm = eye;
     d.camera.resolution = resolution;

@@ -25,8 +25,8 @@ double view_step_mm(const Display&, const Geometry&, double z_mm);
 /// How many views lie side by side in the longest side of the boxes, at least 2; 1 if all boxes are points.
 std::int64_t views_within(std::span<const EyeBox>, const Display&, const Geometry&);
 
-/// Eye places spread evenly over boxes by an additive recurrence with the powers of a generalised golden ratio (M. Roberts 2018), the
-/// boxes in turn. Places from `first` on, so that held-out places continue the fitted ones.
+/// Eye places spread evenly over boxes by an additive recurrence with the powers of a generalised golden ratio (M. Roberts 2018),
+/// the boxes in turn. Places from `first` on, so that held-out places continue the fitted ones.
 std::vector<Vec3d> places_within(std::span<const EyeBox>, std::int64_t first, std::int64_t count);
 
 /// Such places around the boxes, within so many view steps of them.
@@ -35,9 +35,9 @@ std::vector<Vec3d> places_around(std::span<const EyeBox>, const Display&, const 
 /// Width of an element of a view, in the plane of the content's middle: content.inverse.pixel_mm or its default.
 double element_mm(const Display&, const Geometry&, const Vec3d& eye, double content_z_mm);
 
-/// The display with its camera at `eye`: it looks at the panel's centre, is focused on the plane z = content_z_mm, has a pupil and a box
-/// filter, and its frame just covers the array with elements of element_mm(). (shift_x, shift_y): by how many elements, each 0 to 1, its
-/// frame is moved. Throws InputError for a place from which the display cannot be seen.
+/// The display with its camera at `eye`: it looks at the panel's centre, is focused on the plane z = content_z_mm, has a pupil and
+/// a box filter, and its frame just covers the array with elements of element_mm(). (shift_x, shift_y): by how many elements, each
+/// 0 to 1, its frame is moved. Throws InputError for a place from which the display cannot be seen.
 Display seen_by_eye(const Display&, const Geometry&, const Vec3d& eye, double content_z_mm, double shift_x, double shift_y);
 
 /// The display's camera, moved to `eye`, with a pupil, a box filter and this many columns and rows.

@@ -90,7 +90,8 @@ double FittedViews::add_products(const Strip& strip, const PanelVector& x, bool 
             half_squares += 0.5 * double(weight) * double(error) * double(error);
             times[c] = double(weight) * double(error) * double(scale);
             // x is from -1 to 2 where the solver looks ahead.
-            largest = std::max(largest, double(most[c]) * double(weight) * double(scale) * (2 * double(white) + std::abs(double(target))));
+            largest = std::max(largest,
+                               double(most[c]) * double(weight) * double(scale) * (2 * double(white) + std::abs(double(target))));
         }
         if (!sums) return;
         const auto add = [&](std::size_t place, double term) {
@@ -184,7 +185,8 @@ Nearness FittedViews::nearness(std::size_t k, const PanelVector& x) const {
         region.rows.push_back(row);
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    return {count > 0 ? -10 * std::log10(std::max(squares / count, 1e-12)) : nan, ssim(image, view.content, std::span(&region, 1))[0]};
+    return {count > 0 ? -10 * std::log10(std::max(squares / count, 1e-12)) : nan,
+            ssim(image, view.content, std::span(&region, 1))[0]};
 }
 
 std::int64_t FittedViews::rays() const {

@@ -5,20 +5,16 @@
 #include "inverse/nearness.h"
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace lfdsim {
 
-/// What an eye should see: the picture of a display's camera, `samples` rays a pixel.
-using ContentOf = std::function<Image(const Display& seen, const Geometry&, std::int64_t samples, int threads, Job&)>;
-/// That of a scene: its photograph.
-ContentOf photographs_of(const ContentScene&);
+class LightField;  // content/pictures/light_field.h
 
-/// Given pictures in place of a scene: what the display's camera, moved to each of these eyes, should see. Light, the camera's size.
+/// Given pictures in place of a scene: what the display's camera, moved to each of these eyes, should see. Light, the camera's
+/// size.
 struct EyePictures {
     std::vector<Vec3d> eyes_mm;
     std::vector<Image> pictures;
@@ -33,9 +29,9 @@ struct InverseReport {
     double seconds = 0, rays_per_second = 0;
     double gain = 0;  // light of a white panel at these eyes
     double black = 0, white = 1, prior = 0;
-    Nearness fitted, held_out, held_out_traced;                                      // means over eyes
-    double at_black_percent = 0, at_white_percent = 0, unseen_percent = 0;           // of the panel's subpixels
-    bool traced = false;                                                             // traced content served held-out eyes better
+    Nearness fitted, held_out, held_out_traced;                             // means over eyes
+    double at_black_percent = 0, at_white_percent = 0, unseen_percent = 0;  // of the panel's subpixels
+    bool traced = false;                                                    // traced content served held-out eyes better
     std::vector<std::string> warnings;
 };
 
@@ -44,11 +40,14 @@ struct InvertedPanel {
     InverseReport report;
 };
 
-/// The panel picture of a scene by the inverse pick-up: least squares over the panel's light, between 0 and 1, of what eyes in the boxes see
-/// (docs/inverse.md has the equations). Stopped after the first step it returns the best panel so far, before that traced content, and
-/// the picture is not complete. The same bits for any number of threads and kernel. Throws InputError for eyes that cannot see the display,
-/// and where memory is short.
+/// The panel picture of a scene by the inverse pick-up: least squares over the panel's light, between 0 and 1, of what eyes in the
+/// boxes see (docs/inverse.md has the equations). Stopped after the first step it returns the best panel so far, before that traced
+/// content, and the picture is not complete. The same bits for any number of threads and kernel. Throws InputError for eyes that
+/// cannot see the display, and where memory is short.
 InvertedPanel invert(const Display&, const Geometry&, const ContentScene&, std::span<const EyeBox>, int threads, Job&);
+
+/// The same for a grid of views in place of a scene.
+InvertedPanel invert(const Display&, const Geometry&, const LightField&, std::span<const EyeBox>, int threads, Job&);
 
 /// The same for given pictures; there are no held-out eyes, and the last panel is taken.
 InvertedPanel invert(const Display&, const Geometry&, const EyePictures&, int threads, Job&);

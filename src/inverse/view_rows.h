@@ -13,9 +13,7 @@ namespace lfdsim {
 struct Rows {
     std::vector<std::uint32_t> start{0};  // of each row's entries, and behind the last
     std::vector<PanelRay> entries;        // of a row in the order of their places, each place once
-    std::span<const PanelRay> row(std::size_t k) const {
-        return std::span(entries).subspan(start[k], start[k + 1] - start[k]);
-    }
+    std::span<const PanelRay> row(std::size_t k) const { return std::span(entries).subspan(start[k], start[k + 1] - start[k]); }
     std::size_t bytes() const { return entries.size() * sizeof(PanelRay) + start.size() * sizeof(std::uint32_t); }
 };
 

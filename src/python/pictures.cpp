@@ -65,6 +65,20 @@ nb::typed<nb::tuple, Pictured, Notes> elemental_images(const Display& display, i
     return made.objects();
 }
 
+nb::typed<nb::tuple, Pictured, Notes> invert_pictures(const Display& display, const std::vector<Pixels<float>>& targets,
+                                                      const std::vector<Vec3d>& eyes_mm, int threads, const nb::object& progress) {
+    PictureWithWarnings made;
+    run(progress, [&](Job& job) {
+        require_panel_memory(display);
+        EyePictures wanted{eyes_mm, {}};
+        for (std::size_t k = 0; k < targets.size(); ++k)
+            wanted.pictures.push_back(image_of(targets[k], display.panel.encoding, fmt::format("targets[{}]", k)));
+        InvertedPanel panel = invert(display, resolve(display), wanted, threads, job);
+        made = {std::move(panel.picture.image), std::move(panel.report.warnings)};
+    });
+    return made.objects();
+}
+
 nb::typed<nb::tuple, Pictured, Notes> photograph(const Display& display, const std::optional<Corners>& crop, int threads,
                                                  const nb::object& progress) {
     PictureWithWarnings made;
@@ -179,6 +193,8 @@ nb::ndarray<nb::numpy, std::uint8_t> codes(const Display& display, const AnyPixe
 }  // namespace
 
 void add_pictures(nb::module_& m) {
+    m.def("invert_pictures", invert_pictures, nb::arg("display"), nb::arg("targets"), nb::arg("eyes_mm"), nb::arg("threads"),
+          nb::arg("progress").none());
     m.def("elemental_images", elemental_images, nb::arg("display"), nb::arg("threads"), nb::arg("progress").none());
     m.def("photograph", photograph, nb::arg("display"), nb::arg("crop").none(), nb::arg("threads"), nb::arg("progress").none());
     nb::class_<PreparedPanel>(m, "Panel");

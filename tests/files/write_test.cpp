@@ -43,6 +43,10 @@ template <class T, std::size_t n>
 void fill(std::array<T, n>& x, const Range& range) {
     for (T& a : x) fill(a, range);
 }
+void fill(std::vector<Vec3d>& x, const Range& range) {
+    x.resize(2 * *rc::gen::inRange<std::size_t>(0, 3));
+    for (Vec3d& point : x) fill(point, range);
+}
 void fill(Pitch& x, const Range& range) { x = any_number(range); }
 void fill(LensKind&, const Range&) {}  // each kind has a start of its own
 template <class E>

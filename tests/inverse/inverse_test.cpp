@@ -2,12 +2,14 @@
 #include "inverse/inverse.h"
 
 #include <gtest/gtest.h>
+#include <atomic>
 #include <cmath>
 #include <random>
 
 #include "../engine/pictures.h"
 #include "../sanitizers.h"
 #include "files/description/display_file.h"
+#include "image/formats/image_file.h"
 #include "inverse/box_solver.h"
 #include "inverse/fitted_views.h"
 
@@ -17,8 +19,9 @@ namespace {
 /// The displays that ship, each with few pixels of its camera, its middle in them.
 std::vector<std::pair<std::string, Display>> shipped_displays() {
     std::vector<std::pair<std::string, Display>> all;
-    for (const char* name : {"barrier", "desktop-asphere", "desktop-asphere-bare", "desktop-asphere-colour", "desktop-clear", "desktop-doublet",
-                             "desktop-ideal", "desktop-plate", "desktop-spherical", "desktop-stopped", "hexagon", "tablet-lenticular"}) {
+    for (const char* name :
+         {"barrier", "desktop-asphere", "desktop-asphere-bare", "desktop-asphere-colour", "desktop-clear", "desktop-doublet",
+          "desktop-ideal", "desktop-plate", "desktop-spherical", "desktop-stopped", "hexagon", "tablet-lenticular"}) {
         Display d = read_display(std::string(LFDSIM_SOURCE_DIR "/displays/") + name + ".toml", {});
         d.camera.resolution = {24, 16};
         d.camera.frame_width_mm = resolve(d).frame_width_mm / 8;
@@ -60,7 +63,8 @@ TEST(ViewRows, AreThoseOfTheRenderer) {
             for (std::size_t c = 0; c < 3; ++c) {
                 double sum = 0;
                 for (const PanelRay& ray : all.row(p))
-                    if (pixels || (ray.place & 3) == c) sum += double(ray.share) * double(x[pixels ? ray.place * 4ull + c : ray.place]);
+                    if (pixels || (ray.place & 3) == c)
+                        sum += double(ray.share) * double(x[pixels ? ray.place * 4ull + c : ray.place]);
                 ASSERT_NEAR(sum, rendered.rgb[3 * p + c], 1e-6) << name << ", element " << p << ", channel " << c;
             }
     }
@@ -110,9 +114,10 @@ TEST(FittedViews, KeptRowsChangeNoBit) {
     }
 }
 
-/// The minimum of |M x - t|^2 + p |x - c|^2 in the box by another method, in double precision: coordinates in turn, each at its own minimum.
-std::vector<double> by_coordinates(const std::vector<std::vector<double>>& m, const std::vector<double>& t, const std::vector<float>& centre,
-                                   double prior) {
+/// The minimum of |M x - t|^2 + p |x - c|^2 in the box by another method, in double precision: coordinates in turn, each at its own
+/// minimum.
+std::vector<double> by_coordinates(const std::vector<std::vector<double>>& m, const std::vector<double>& t,
+                                   const std::vector<float>& centre, double prior) {
     const std::size_t unknowns = centre.size();
     std::vector<double> x(centre.begin(), centre.end());
     for (int sweep = 0; sweep < 20000; ++sweep) {
@@ -165,6 +170,98 @@ TEST(BoxSolver, FindsTheMinimumOfASmallPanel) {
         at_ends += wanted[j] == 0 || wanted[j] == 1;
     }
     EXPECT_GT(at_ends, 5);
+}
+
+constexpr const char* small_display = R"(schema = 1
+panel = {pixels = [180, 120], pixel_pitch_mm = 0.5}
+lens = {type = "plano_convex", sphere_radius_mm = 5, aperture_radius_mm = 2.9, cylinder_height_mm = 1, index = 1.49}
+array = {count = [15, 10], pitch_mm = 6, gap_mm = 11}
+diffuser = {distance_mm = 60, angle_deg = [3, 3]}
+camera = {position_mm = [0, 0, 600]}
+content = {viewing_distance_mm = 600, pickup = "inverse"}
+)";
+
+InvertedPanel inverted(const Display& d, int threads) {
+    Job job;
+    const Geometry g = resolve(d);
+    const ContentScene scene(built_in_model(), d, g);
+    const std::vector<EyeBox> boxes{{{-60, 0, 600}, {60, 0, 600}}};
+    return invert(d, g, scene, boxes, threads, job);
+}
+
+TEST(Inverse, GainsAtEyesThatWereNotFittedWithTheSameBitsOnAnyNumberOfThreads) {
+    Display d = parse_display(small_display, "small");
+    d.content.inverse.rays = 16;
+    d.content.inverse.iterations = 6;
+    const InvertedPanel one = inverted(d, 1);
+    EXPECT_GT(one.report.held_out.psnr_db, one.report.held_out_traced.psnr_db + 1);
+    EXPECT_GT(one.report.held_out.ssim, one.report.held_out_traced.ssim);
+    EXPECT_FALSE(one.report.traced);
+    EXPECT_TRUE(one.picture.complete);
+    d.content.inverse.memory_mb = 2;  // most rows are made again in each step
+    for (const int threads : {2, 5}) EXPECT_EQ(inverted(d, threads).picture.image.rgb, one.picture.image.rgb) << threads;
+}
+
+TEST(Inverse, OfTheResultGainsNoMore) {
+    Display d = parse_display(small_display, "small");
+    d.content.inverse.rays = 16;
+    d.content.inverse.iterations = 30;
+    const InvertedPanel first = inverted(d, 2);
+    const std::string file = testing::TempDir() + "start.npy";
+    write_image(file, first.picture.image);
+    d.content.inverse.start = file;
+    const InvertedPanel again = inverted(d, 2);
+    EXPECT_NEAR(again.report.held_out.psnr_db, first.report.held_out.psnr_db, 0.02);
+}
+
+TEST(Inverse, FitsGivenPictures) {
+    Display d = parse_display(small_display, "small");
+    d.camera.resolution = {90, 60};
+    d.camera.pixel_filter = PixelFilter::box;
+    EyePictures wanted;
+    for (const double x : {-30., 0., 30.}) {
+        wanted.eyes_mm.push_back({x, 0, 600});
+        Image picture(90, 60);
+        for (std::size_t k = 0; k < picture.rgb.size(); ++k) picture.rgb[k] = x < 0 ? 0.2f : x > 0 ? 0.6f : 0.4f;
+        wanted.pictures.push_back(picture);
+    }
+    Job job;
+    const InvertedPanel panel = invert(d, resolve(d), wanted, 2, job);
+    Texels shown = make_texels(panel.picture.image), white = uniform_panel(d, 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+        Display seen = d;
+        seen.camera.position_mm = wanted.eyes_mm[k];
+        const float light = picture(seen, shown).at(45, 30)[1] / picture(seen, white).at(45, 30)[1];
+        EXPECT_NEAR(light, 0.2 + 0.2 * double(k), 0.05) << k;
+    }
+    wanted.pictures.pop_back();
+    EXPECT_THROW(invert(d, resolve(d), wanted, 2, job), InputError);
+}
+
+/// A job that is cancelled after so many stages.
+class StopsAfter : public Job {
+  public:
+    explicit StopsAfter(int stages) : left_(stages) {}
+    void stage(std::string_view, std::int64_t) override { --left_; }
+    bool cancelled() const override { return left_ < 0; }
+
+  private:
+    std::atomic<int> left_;
+};
+
+TEST(Inverse, StoppedKeepsTheBestPanel) {
+    Display d = parse_display(small_display, "small");
+    d.content.inverse.rays = 16;
+    const Geometry g = resolve(d);
+    const ContentScene scene(built_in_model(), d, g);
+    const std::vector<EyeBox> boxes{{{-60, 0, 600}, {60, 0, 600}}};
+    for (const int stages : {2, 7}) {  // among the photographs; after some steps
+        StopsAfter job(stages);
+        const InvertedPanel panel = invert(d, g, scene, boxes, 2, job);
+        EXPECT_FALSE(panel.picture.complete);
+        EXPECT_EQ(panel.picture.image.width, 180);
+        EXPECT_EQ(panel.report.held_out.psnr_db > panel.report.held_out_traced.psnr_db, stages == 7);
+    }
 }
 
 }  // namespace

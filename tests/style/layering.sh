@@ -5,7 +5,7 @@ cd "${1:-.}"
 
 grep -rnE '^ *# *include +"' src --include='*.h' --include='*.cpp' --include='*.cu' | awk -F: '
     BEGIN {
-        count = split("base display geometry checks image 0|simd optics 1|engine content files interchange 2|analysis 3|report lfdsim 4|cli view python 5", groups, "|")
+        count = split("base display geometry checks image 0|simd optics 1|engine content files interchange 2|inverse analysis 3|report lfdsim 4|cli view python 5", groups, "|")
         for (i = 1; i <= count; ++i) {
             n = split(groups[i], word, " ")
             for (j = 1; j < n; ++j) floor[word[j]] = word[n]

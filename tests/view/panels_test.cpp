@@ -81,6 +81,10 @@ void PanelsTest::tell_apart(const PanelContent& source, const Display& before, i
         if (d == before || !validate(d).empty()) return;
         ++changed;
         const PanelKey other = panel_key(source, d, resolve(d));
+        if (d.content.pickup == PickupKind::inverse) {  // takes long, and depends on nearly all
+            EXPECT_FALSE(other == key);
+            return;
+        }
         const auto now = images(d);
         const bool equal = now.first == as_before.first && now.second.pixels == as_before.second.pixels &&
                            now.second.encoding == as_before.second.encoding;

@@ -1,14 +1,14 @@
 #include "analysis/core/parallel.h"
 
+#include "base/on_threads.h"
+
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <algorithm>
 
 namespace lfdsim {
 
 void Parts::run(int n, const std::function<void(int)>& part) {
-    tbb::task_arena arena(threads_ > 0 ? threads_ : tbb::task_arena::automatic);
-    arena.execute([&] {
+    on_threads(threads_, [&] {
         tbb::parallel_for(0, n, [&](int k) {
             if (job_.cancelled()) return;
             part(k);

@@ -1,13 +1,11 @@
 #include "analysis/spots/lens_spots.h"
 
 #include "base/constants.h"
+#include "base/on_threads.h"
 #include "geometry/pupil.h"
 #include "optics/lattice.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <algorithm>
 #include <cmath>
 
@@ -101,10 +99,7 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
         return images < 1e-9 ? 0 : images;  // within double precision
     };
     Distortion result{columns, rows, std::vector<double>(std::size_t(columns) * std::size_t(rows), nan)};
-    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                      std::size_t(std::max(threads, tbb::info::default_concurrency())));
-    tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
-    arena.execute([&] {
+    on_threads(threads, [&] {
         tbb::parallel_for(0, (places[1] + 1) / 2, [&](int j) {
             for (int i = 0; i < (places[0] + 1) / 2 && !job.cancelled(); ++i) {
                 const double value = miss({(i + 0.5 - places[0] / 2.) * step[0], (places[1] / 2. - j - 0.5) * step[1]});

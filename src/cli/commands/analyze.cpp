@@ -41,7 +41,7 @@ struct AnalyzeArguments {
         command.list("OTHER.toml", "", "More displays: each is measured in a separate folder and compared with the first");
     Option compare = command.option("--compare", "KEY=VALUE,VALUE",
                                     "Measures the display once for each value of a key, side by side: array.gap_mm=3.2,3.3; pickup "
-                                    "is short for content.pickup=nodal,traced");
+                                    "is short for content.pickup=nodal,traced,inverse");
     Option output = command.option("-o,--output", "DIR REQUIRED",  // told with what else is wrong
                                    "Folder for the results and report.html; created if missing");
     Flag resume = command.flag("--resume", "Skip what an earlier run with the same settings has finished there");

@@ -47,12 +47,19 @@ void run(const EiaArguments& args) {
     faults.of([&] { args.work.check(); });
     faults.of([&] { args.output.check(); });
     faults.of([&] { args.mapping.check(args.output.path()); });
+    if (args.mapping.given() && display.content.pickup == PickupKind::inverse)
+        faults.of([] {
+            throw InputError(
+                "--mapping",
+                "is the table of traced rays, which the inverse pick-up does not use; leave it out, or take --pickup traced");
+        });
     faults.of([&] { check_effects(args.command); });
     faults.report();
 
     const Geometry geometry = resolve(display);
     Picture picture;
-    std::string of_views, after;
+    std::string of_views;
+    std::optional<InverseReport> inverse;
     Json more = Json::object();
     Progress progress(args.work.progress());
     if (views.given()) {
@@ -60,17 +67,19 @@ void run(const EiaArguments& args) {
         picture = std::move(made.field.picture);
         of_views = std::move(made.text);
         more["views"] = std::move(made.json);
+        inverse = std::move(made.inverse);
     } else if (args.pattern.given()) {
         picture.image = pattern(args.pattern.name(), display, geometry, pattern_options);
     } else {
         const ContentScene scene = load_scene(display, geometry);
         ShownContent made = shown_content(display, geometry, scene, args.work.threads(), progress);
         picture = std::move(made.picture);
-        if (made.inverse) {
-            warn(*made.inverse);
-            after = text_of(*made.inverse);
-            more["inverse"] = json_of(*made.inverse);
-        }
+        inverse = std::move(made.inverse);
+    }
+    if (inverse) {
+        warn(*inverse);
+        of_views += "; " + text_of(*inverse);
+        more["inverse"] = json_of(*inverse);
     }
     if (args.mapping.given()) args.mapping.write(display, geometry, args.work.threads());
     if (picture.dark > 0) {
@@ -82,7 +91,7 @@ void run(const EiaArguments& args) {
     if (args.pattern.given()) about[pattern_mark] = args.pattern.name();
     args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress);
     print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
-               args.work.json(), of_views + after, more);
+               args.work.json(), of_views, more);
 }
 
 }  // namespace

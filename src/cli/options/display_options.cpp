@@ -36,7 +36,8 @@ constexpr KeyOption content[] = {
      "Tilt of the model about the horizontal axis, before the yaw; positive raises the front"},
     {"--yaw-deg", "content.yaw_deg", Form::number, "A", "Rotation of the model, counter-clockwise seen from above"},
     {"--pickup", "content.pickup", Form::word, "nodal|traced|integrated|inverse",
-     "Elemental images for a perfect lens, for where the real lens sends each pixel's light, the mean of all that light, or the panel "
+     "Elemental images for a perfect lens, for where the real lens sends each pixel's light, the mean of all that light, or the "
+     "panel "
      "picture whose views are best (on the CPU)"},
     {"--eyes-mm", "content.inverse.eyes_mm", Form::box, "X,Y,Z,X,Y,Z",
      "Inverse pick-up: opposite corners of the box in which eyes are; default: the viewing zone"},

@@ -1,5 +1,6 @@
 #include "cli/options/grid_options.h"
 
+#include "analysis/pictures/shown_content.h"
 #include "base/constants.h"
 #include "cli/program/arguments.h"
 #include "cli/program/input_files.h"
@@ -104,7 +105,16 @@ ViewsOption::Made ViewsOption::make(const Display& display, const Geometry& geom
             "in reversed order",
             source_.name);
     const ViewGrid& grid = views->field.grid();
-    Made made{elemental_images(display, geometry, views->field, threads, progress), "", grid_json(grid)};
+    const bool inverse = display.content.pickup == PickupKind::inverse;
+    Made made{{}, "", grid_json(grid)};
+    if (inverse) {
+        InvertedPanel panel =
+            invert(display, geometry, views->field, inverse_eyes(display, geometry, threads, progress), threads, progress);
+        made.field.picture = std::move(panel.picture);
+        made.inverse = std::move(panel.report);
+    } else {
+        made.field = elemental_images(display, geometry, views->field, threads, progress);
+    }
     const double rays = double(std::max<std::int64_t>(made.field.picture.rays, 1));
     made.json.update({{"form", std::string(name_of(source_.form))},
                       {"view_width", views->width},

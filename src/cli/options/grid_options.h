@@ -6,6 +6,7 @@
 #include "content/pictures/read_views.h"
 #include "display/display.h"
 #include "geometry/geometry.h"
+#include "inverse/inverse.h"
 
 #include <optional>
 #include <string>
@@ -50,6 +51,7 @@ class ViewsOption {
         FieldPicture field;
         std::string text;  // of what it was made
         Json json;
+        std::optional<InverseReport> inverse = {};  // of the inverse pick-up
     };
     /// Reads the views and makes elemental images of them; warns of what is wrong with their order. Throws InputError, and
     /// Interrupted where a signal ends the reading.

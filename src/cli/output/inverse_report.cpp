@@ -15,9 +15,10 @@ void warn(const InverseReport& report) {
 }
 
 std::string text_of(const InverseReport& report) {
-    return fmt::format("at eyes that were not fitted: {:.2f} dB, SSIM {:.3f} (traced content: {:.2f} dB, {:.3f}); {} eyes{}, {} steps",
-                       report.held_out.psnr_db, report.held_out.ssim, report.held_out_traced.psnr_db, report.held_out_traced.ssim,
-                       report.places, report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations);
+    return fmt::format(
+        "at eyes that were not fitted: {:.2f} dB, SSIM {:.3f} (traced content: {:.2f} dB, {:.3f}); {} eyes{}, {} steps",
+        report.held_out.psnr_db, report.held_out.ssim, report.held_out_traced.psnr_db, report.held_out_traced.ssim, report.places,
+        report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations);
 }
 
 Json json_of(const InverseReport& r) {

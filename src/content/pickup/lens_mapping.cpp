@@ -1,11 +1,11 @@
 #include "content/pickup/lens_mapping.h"
 
+#include "base/on_threads.h"
 #include "display/colour.h"
 #include "engine/views/lens_trace.h"
 #include "optics/lattice.h"
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -226,8 +226,7 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
                 table.light[n] = light;
             }
     };
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] {
+    on_threads(threads, [&] {
         tbb::parallel_for(0, steps[1] + 1, [&](int j) {
             for (int i = 0; i <= steps[0]; ++i) {
                 const Point u{steps[0] > 0 ? i * reach_[0] / steps[0] : 0, steps[1] > 0 ? j * reach_[1] / steps[1] : 0};

@@ -1,12 +1,10 @@
 // Rays through a picture, in packets, on all threads. Floor 2, internal to content.
 #pragma once
+#include "base/on_threads.h"
 #include "content/pictures/ray_block.h"
 
 #include <oneapi/tbb/blocked_range2d.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
 #include <chrono>
@@ -99,11 +97,7 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
         dark += count_dark;
     };
     job.stage(stage, std::int64_t(columns) * rows);
-    // More threads than processors are allowed, if asked for.
-    const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
-    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, std::size_t(workers));
-    tbb::task_arena arena(workers);
-    arena.execute([&] {
+    on_threads(threads, [&] {
         tbb::parallel_for(tbb::blocked_range2d<int>(0, rows, 0, columns), [&](const tbb::blocked_range2d<int>& range) {
             for (int r = range.rows().begin(); r < range.rows().end(); ++r) {
                 for (int c = range.cols().begin(); c < range.cols().end(); ++c) {

@@ -6,8 +6,8 @@
 
 namespace lfdsim {
 
-/// Where a ray ends: a panel pixel, row x columns + column (on a panel with subpixels four times that, plus the channel of which alone
-/// there is light, 3: all), and the share of its light that the ray carries. share 0: the ray ends on none.
+/// Where a ray ends: a panel pixel, row x columns + column (on a panel with subpixels four times that, plus the channel of which
+/// alone there is light, 3: all), and the share of its light that the ray carries. share 0: the ray ends on none.
 struct PanelRay {
     std::uint32_t place;
     float share;

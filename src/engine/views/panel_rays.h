@@ -9,8 +9,8 @@
 
 namespace lfdsim {
 
-/// The rays of a display's camera by the estimator `point`: a pixel's light is the mean over its rays of share times the light of the
-/// panel pixel that they end on. May be used by several threads.
+/// The rays of a display's camera by the estimator `point`: a pixel's light is the mean over its rays of share times the light of
+/// the panel pixel that they end on. May be used by several threads.
 class PanelRays {
   public:
     /// `kernel` as RenderOptions has it; the rays do not depend on it. Throws InputError.

@@ -16,8 +16,7 @@ namespace lfdsim::view {
 namespace {
 
 // Other parts of a message decide these, or nothing of the picture depends on them.
-constexpr std::string_view left_out[] = {"name", "camera.position_mm", "camera.resolution", "panel.subpixel_cell",
-                                          "content.inverse.eyes_mm"};
+constexpr std::string_view left_out[] = {"name", "camera.position_mm", "camera.resolution", "panel.subpixel_cell"};
 
 std::string label(std::string_view key) {
     for (const std::string_view unit : {"_per_mm", "_mm", "_nm", "_deg"})
@@ -117,7 +116,7 @@ class Lister {
     void add_key(const std::string& path, const KeyInfo& key, Field& field) {
         const std::string table(table_of_path(path));
         const bool idle = table == last_surface() && (key.name == "distance_mm" || key.name == "index");  // no surface follows
-        if (key.names_file || idle || gives_way(path) || of_no_object(path, field) ||
+        if (key.names_file || idle || path.starts_with("content.inverse.") || gives_way(path) || of_no_object(path, field) ||
             std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out))
             return;
         Json control{{"key", path}, {"table", table}, {"label", label(key.name)}, {"unit", unit_of(std::string(key.name))}};

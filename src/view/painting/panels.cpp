@@ -108,7 +108,8 @@ PanelKey panel_key(const PanelContent& source, const Display& d, const Geometry&
     if (d.content.pickup == PickupKind::inverse) {  // it looks through the whole display, from eyes of its own
         key.inverse = d;
         key.inverse->camera.resolution = {};
-        if (!d.content.inverse.eyes_mm.empty() || std::isfinite(d.content.viewing_distance_mm)) key.inverse->camera.position_mm = {};
+        if (!d.content.inverse.eyes_mm.empty() || std::isfinite(d.content.viewing_distance_mm))
+            key.inverse->camera.position_mm = {};
     }
     return key;
 }

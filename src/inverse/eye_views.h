@@ -1,0 +1,37 @@
+// The views of eyes: what they should see, what they see of a white panel, and which of their elements count. Floor 3.
+#pragma once
+#include "content/content.h"
+#include "content/pictures/light_field.h"
+#include "engine/estimator/summed_panel.h"
+#include "inverse/fitted_views.h"
+#include "inverse/plan.h"
+
+#include <atomic>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lfdsim {
+
+/// The photograph of a scene, which must outlive it.
+ContentOf photographs_of(const ContentScene&, int threads);
+
+/// Rays from eyes through a grid of views, and those that no view shows.
+struct FieldRays {
+    std::atomic<std::int64_t> all{0}, unseen{0};
+};
+/// What a camera sees of a grid of views, whose focus is in the plane z = focus_z_mm: along one line through the middle of each
+/// pixel, as wide as it. All must outlive it.
+ContentOf pictures_of(const LightField&, double focus_z_mm, FieldRays&);
+
+/// The views of eyes as a display shows them, of which no element counts yet. Nothing if the job is cancelled.
+std::optional<std::vector<View>> views_of(const Request&, const Display&, std::span<const Eye>, std::int64_t rays,
+                                          std::int64_t samples, const SummedPanel& white, const char* stage);
+
+/// The median light of a white panel over the elements that are not dim, of eyes in the boxes. Throws InputError if there is none.
+double gain_of(std::span<const View>);
+
+/// Elements count that see more than 0.6 of the gain of a white panel, without so many at the border of those.
+void count_elements(std::vector<View>&, double gain, int border);
+
+}  // namespace lfdsim

@@ -1,0 +1,105 @@
+#include "inverse/plan.h"
+
+#include "base/input_error.h"
+#include "engine/views/panel_rays.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace lfdsim {
+namespace {
+
+constexpr double rim_weight = 0.25;        // of eyes around the boxes
+constexpr std::int64_t rays_to_count = 4;  // of an element, to see how many pixels are met
+
+/// A number of a grid's shift, uniform in [0, 1): the same for each seed and place.
+std::pair<double, double> shift_of(const Request& request, std::int64_t place) {
+    std::mt19937_64 random(std::uint64_t(request.display.render.seed) * 1000003 + std::uint64_t(place));
+    const auto next = [&] { return double(random() >> 11) * 0x1p-53; };
+    const double x = next();
+    return {x, next()};
+}
+
+}  // namespace
+
+std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight) {
+    std::vector<Eye> eyes;
+    for (const Vec3d& place : places) eyes.push_back({place, first + std::int64_t(eyes.size()), weight});
+    return eyes;
+}
+
+Display display_of(const Request& request, const Display& display, const Geometry& geometry, const Eye& eye, std::int64_t rays) {
+    const auto [x, y] = shift_of(request, eye.number);
+    Display seen = eye.picture ? seen_by_camera_at(display, geometry, eye.place, {eye.picture->width, eye.picture->height})
+                               : seen_by_eye(display, geometry, eye.place, request.content_z_mm, x, y);
+    seen.render.samples = rays;
+    // Rays of their own for each eye: what a fit makes of one eye's noise is then noise for the next.
+    seen.render.seed = std::int64_t((std::uint64_t(display.render.seed) + 0x9e3779b97f4a7c15u * std::uint64_t(eye.number)) >> 1);
+    return seen;
+}
+
+EyeCounts count(const Request& request, std::span<const Eye> eyes) {
+    const auto [columns, rows] = request.display.panel.pixels;
+    std::vector<std::uint8_t> met(std::size_t(columns) * std::size_t(rows), 0);
+    std::vector<EyeCounts> each(eyes.size());
+    tbb::parallel_for(std::size_t(0), eyes.size(), [&](std::size_t k) {
+        EyeCounts& counts = each[k];
+        const Display seen = display_of(request, request.display, request.geometry, eyes[k], rays_to_count);
+        const PanelRays rays(seen, resolve(seen));
+        std::vector<PanelRay> found;
+        rays.trace({0, 0, int(seen.camera.resolution[0]), int(seen.camera.resolution[1])}, found);
+        const bool subpixels = seen.panel.subpixels != SubpixelLayout::none || seen.panel.aperture_ratio < 1;
+        const auto samples = std::size_t(rays.samples());
+        for (std::size_t p = 0; p < found.size(); p += samples) {
+            bool lit = false;
+            for (std::size_t s = p; s < p + samples; ++s)
+                if (found[s].share > 0) {
+                    std::atomic_ref(met[subpixels ? found[s].place >> 2 : found[s].place]).store(1, std::memory_order_relaxed);
+                    counts.lit += 1 / double(samples);  // for one ray an element
+                    lit = true;
+                }
+            counts.rows += lit;
+        }
+    });
+    EyeCounts counts;
+    for (const EyeCounts& one : each) counts = {0, counts.rows + one.rows, counts.lit + one.lit};
+    counts.pixels = double(std::count(met.begin(), met.end(), 1));
+    return counts;
+}
+
+std::int64_t rays_for(const EyeCounts& counts) {
+    const double needed = rays_wanted * counts.pixels / counts.lit;
+    return 4 * std::clamp<std::int64_t>(std::int64_t(std::ceil(needed / 4)), 1, 1024);
+}
+
+Plan plan(const Request& request) {
+    const Inverse& keys = request.keys();
+    const double rim = keys.rim.value_or(is_strips(request.display.array) ? 0 : 2);
+    const auto eyes_for = [&](std::int64_t places) {
+        std::vector<Eye> eyes = eyes_at(places_within(request.boxes, 0, places), 0, 1);
+        const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, places);
+        for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight))) eyes.push_back(eye);
+        return eyes;
+    };
+    Plan p{};
+    p.in_boxes = keys.places.value_or(views_within(request.boxes, request.display, request.geometry));
+    for (int attempt = 0;; ++attempt) {
+        const EyeCounts inside = count(request, eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1));
+        if (!(inside.pixels > 0)) throw InputError("content.inverse.eyes_mm", "no ray from these eyes ends on the panel");
+        const double ratio = inside.rows / inside.pixels;
+        const bool fixed = keys.places || p.in_boxes == 1;
+        if (fixed || ratio >= rows_wanted || attempt == 4) break;
+        p.in_boxes = std::int64_t(std::ceil(double(p.in_boxes) * std::max(1.05 * rows_wanted / ratio, 1.02)));
+    }
+    p.eyes = eyes_for(p.in_boxes);
+    p.counts = count(request, p.eyes);
+    p.rays = keys.rays.value_or(rays_for(p.counts));
+    return p;
+}
+
+}  // namespace lfdsim
