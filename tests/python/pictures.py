@@ -34,6 +34,23 @@ class SameBits(TinyTest):
         self.program("eia", "tiny.toml", "--pickup", "traced", "-o", "traced.npy")
         self.same(lfdsim.elemental_images(self.display, pickup="traced"), "traced.npy")
 
+    def test_content_by_inversion(self) -> None:
+        d = self.display.with_({"content.inverse.rays": 8, "content.inverse.iterations": 3, "content.inverse.places": 20})
+        keys = ["--set", "content.inverse.rays=8", "content.inverse.iterations=3", "content.inverse.places=20"]
+        self.program("eia", "tiny.toml", "--pickup", "inverse", "-o", "inverse.npy", *keys)
+        self.same(lfdsim.elemental_images(d, pickup="inverse"), "inverse.npy")
+        eyes = [(x, 0, 400) for x in (-20, 0, 20)]
+        targets = [np.full((54, 96, 3), light, np.float32) for light in (0.2, 0.4, 0.6)]
+        panel = lfdsim.elemental_images(d, pickup="inverse", targets=targets, target_eyes_mm=eyes)
+        light = [lfdsim.render(d, panel, camera_mm=eye)[20:34, 40:56].mean() for eye in eyes]
+        self.assertLess(light[0], light[1])
+        self.assertLess(light[1], light[2])
+        for named in ({"targets": targets}, {"targets": targets[:2], "target_eyes_mm": eyes}, {"target_eyes_mm": eyes}):
+            with self.assertRaises(lfdsim.InputError):
+                lfdsim.elemental_images(d, pickup="inverse", **named)
+        with self.assertRaisesRegex(lfdsim.InputError, "targets"):
+            lfdsim.elemental_images(d, pickup="traced", targets=targets, target_eyes_mm=eyes)
+
     def test_render(self) -> None:
         self.program("eia", "tiny.toml", "-o", "eia.npy")
         self.program("eia", "tiny.toml", "-o", "eia.png")
