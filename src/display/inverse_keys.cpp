@@ -1,12 +1,9 @@
 // The keys of [content.inverse].
+#include "base/constants.h"
 #include "display/keys.h"
-
-#include <limits>
 
 namespace lfdsim {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr Key<Inverse> inverse_keys[] = {
     {"eyes_mm", &Inverse::eyes_mm, Range{-longest_mm, infinity}, false,

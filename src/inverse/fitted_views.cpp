@@ -140,6 +140,20 @@ double FittedViews::half_gradient(const PanelVector& x, PanelVector& half) {
     return value;
 }
 
+std::vector<double> FittedViews::light_in(std::size_t first, std::size_t step, std::size_t end, std::size_t size) const {
+    std::vector<double> light(size, 0);
+    for (const Strip& strip : strips_) {
+        if (strip.view < first || strip.view >= end || (strip.view - first) % step != 0) continue;
+        for_strip(strip, [&](std::size_t, std::span<const PanelRay> row) {
+            for (const PanelRay& ray : row) {
+                if (!pixels_) light[ray.place] += double(ray.share);
+                for (std::size_t c = 0; pixels_ && c < 3; ++c) light[std::size_t(ray.place) * 4 + c] += double(ray.share);
+            }
+        });
+    }
+    return light;
+}
+
 Image FittedViews::seen(std::size_t k, const PanelVector& x) const {
     const View& view = views_[k];
     Image image(view.rows.width(), view.rows.height());

@@ -43,6 +43,9 @@ class FittedViews {
     PanelVector bound(std::size_t size);
     /// half = M'VU(M x - t), and half the sum of squares. Sums are integers, so the order in which threads add does not matter.
     double half_gradient(const PanelVector& x, PanelVector& half);
+    /// The light of each number of the panel, at white, in the views from `first` on, each `step`-th before `end`, all elements
+    /// together.
+    std::vector<double> light_in(std::size_t first, std::size_t step, std::size_t end, std::size_t size) const;
     /// What view k sees of a panel, in the content's light.
     Image seen(std::size_t k, const PanelVector& x) const;
     /// Over the counted elements of view k.

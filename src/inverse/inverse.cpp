@@ -74,6 +74,19 @@ Texels white_texels(const Display& d) {
     return texels;
 }
 
+/// Leak over signal of two boxes' eyes, whose views take turns, each subpixel showing the picture of those that get most of its
+/// light.
+double crosstalk_of(const FittedViews& views, std::size_t in_boxes, std::size_t size) {
+    const std::vector<double> light[2] = {views.light_in(0, 2, in_boxes, size), views.light_in(1, 2, in_boxes, size)};
+    double signal[2] = {}, leak[2] = {};
+    for (std::size_t j = 0; j < size; ++j) {
+        const std::size_t owner = light[1][j] > light[0][j] ? 1 : 0;
+        signal[owner] += light[owner][j];
+        leak[1 - owner] += light[1 - owner][j];
+    }
+    return 0.5 * (leak[0] / signal[0] + leak[1] / signal[1]);
+}
+
 /// The picture that a fit begins with.
 PanelVector start_of(const Request& request, const PanelVector& traced) {
     const std::string& file = request.keys().start;
@@ -183,6 +196,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     job.advance(1);
     const std::size_t size = std::size_t(request.display.panel.pixels[0]) * std::size_t(request.display.panel.pixels[1]) * 4;
     const PanelVector bound = fitted.bound(size);
+    if (request.boxes.size() == 2) report.crosstalk = crosstalk_of(fitted, std::size_t(report.places), size);
     // The content's levels over the panel's light; without content the mean of what the eyes should see of each pixel.
     PanelVector centre(size, float(exposure.black));
     if (traced) {

@@ -5,6 +5,7 @@
 #include "inverse/nearness.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,7 +32,10 @@ struct InverseReport {
     double black = 0, white = 1, prior = 0;
     Nearness fitted, held_out, held_out_traced;                             // means over eyes
     double at_black_percent = 0, at_white_percent = 0, unseen_percent = 0;  // of the panel's subpixels
-    bool traced = false;                                                    // traced content served held-out eyes better
+    /// Of two boxes of eyes: the share of one's light that the other sees if each subpixel shows the picture of those that get most
+    /// of its light; levels crosstalk/(1 + crosstalk) and 1/(1 + crosstalk) leave room to subtract all of it.
+    std::optional<double> crosstalk;
+    bool traced = false;  // traced content served held-out eyes better
     std::vector<std::string> warnings;
 };
 

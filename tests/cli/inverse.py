@@ -32,6 +32,11 @@ program.must("views small.toml --grid 5x1 --baseline-mm 20 --view-size 60x40 -o 
 code, _, told = program.run("eia small.toml --views grid --pickup inverse --eyes-mm=-40,0,600,40,0,600 -o views.png --set content.inverse.rays=16 content.inverse.iterations=3")
 checks.that(code == 0, f"views as targets: {told}")
 
+# Two boxes of eyes, of which each sees some of the other's light.
+boxes = "content.inverse.eyes_mm=[[-34,0,600],[-30,0,600],[30,0,600],[34,0,600]]"
+two = json.loads(program.must(f"eia small.toml --pickup inverse -o two.npy --json --set {boxes} content.inverse.rays=16 content.inverse.iterations=2"))["inverse"]
+checks.that(0 < two["crosstalk"] < 1 and told["crosstalk"] is None, f"crosstalk: {two['crosstalk']}, {told['crosstalk']}")
+
 BAD = {  # options -> what the message names
     "--eyes-mm=-60,0,5,60,0,5": "content.inverse.eyes_mm: an eye at",
     "--eyes-mm=-60,0,-600,60,0,-600": "content.inverse.eyes_mm: an eye at",

@@ -15,10 +15,15 @@ void warn(const InverseReport& report) {
 }
 
 std::string text_of(const InverseReport& report) {
+    const std::string crosstalk =
+        report.crosstalk
+            ? fmt::format("; crosstalk {:.1f} %, which --levels {:.2f},{:.2f} leave room to cancel", 100 * *report.crosstalk,
+                          *report.crosstalk / (1 + *report.crosstalk), 1 / (1 + *report.crosstalk))
+            : "";
     return fmt::format(
-        "at eyes that were not fitted: {:.2f} dB, SSIM {:.3f} (traced content: {:.2f} dB, {:.3f}); {} eyes{}, {} steps",
+        "at eyes that were not fitted: {:.2f} dB, SSIM {:.3f} (traced content: {:.2f} dB, {:.3f}); {} eyes{}, {} steps{}",
         report.held_out.psnr_db, report.held_out.ssim, report.held_out_traced.psnr_db, report.held_out_traced.ssim, report.places,
-        report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations);
+        report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations, crosstalk);
 }
 
 Json json_of(const InverseReport& r) {
@@ -38,6 +43,7 @@ Json json_of(const InverseReport& r) {
             {"fitted", json_of(r.fitted)},
             {"held_out", json_of(r.held_out)},
             {"held_out_traced", json_of(r.held_out_traced)},
+            {"crosstalk", r.crosstalk ? Json(*r.crosstalk) : Json()},
             {"traced", r.traced},
             {"at_black_percent", r.at_black_percent},
             {"at_white_percent", r.at_white_percent},
