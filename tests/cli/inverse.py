@@ -29,8 +29,8 @@ program.must("eia small.toml --pickup inverse -o again.npy --set content.inverse
 program.must("render small.toml --pickup inverse --set content.inverse.rays=16 content.inverse.iterations=2 camera.resolution=[64,48] -o view.png")
 
 program.must("views small.toml --grid 5x1 --baseline-mm 20 --view-size 60x40 -o grid")
-code, _, told = program.run("eia small.toml --views grid --pickup inverse --eyes-mm=-40,0,600,40,0,600 -o views.png --set content.inverse.rays=16 content.inverse.iterations=3")
-checks.that(code == 0, f"views as targets: {told}")
+code, _, words = program.run("eia small.toml --views grid --pickup inverse --eyes-mm=-40,0,600,40,0,600 -o views.png --set content.inverse.rays=16 content.inverse.iterations=3")
+checks.that(code == 0, f"views as targets: {words}")
 
 # Two boxes of eyes, of which each sees some of the other's light.
 boxes = "content.inverse.eyes_mm=[[-34,0,600],[-30,0,600],[30,0,600],[34,0,600]]"
@@ -58,10 +58,10 @@ BAD = {  # options -> what the message names
 }
 program.must("eia small.toml --set panel.pixels=[90,60] -o eia-small.png")
 for options, names in BAD.items():
-    code, _, told = program.run(f"eia small.toml --pickup inverse {options} -o bad.png")
-    checks.that(code == 2 and names in told, f"{options}: exit code {code}, said {told!r}")
+    code, _, words = program.run(f"eia small.toml --pickup inverse {options} -o bad.png")
+    checks.that(code == 2 and names in words, f"{options}: exit code {code}, said {words!r}")
     checks.that(not (program.folder / "bad.png").exists(), f"{options}: wrote a picture")
-code, _, told = program.run("eia small.toml --pickup inverse -o few.png --set content.inverse.places=2 content.inverse.rays=4")
-checks.that(code == 0 and "the fit follows noise" in told, f"few rays: {told!r}")
+code, _, words = program.run("eia small.toml --pickup inverse -o few.png --set content.inverse.places=2 content.inverse.rays=4")
+checks.that(code == 0 and "the fit follows noise" in words, f"few rays: {words!r}")
 
 checks.finish()
