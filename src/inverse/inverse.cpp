@@ -53,17 +53,14 @@ Image image_of(const PanelVector& x, const Display& d) {
 }
 
 Nearness mean_nearness(const FittedViews& views, const PanelVector& x, std::size_t most) {
-    Nearness mean;
-    double eyes = 0;
-    const std::size_t step = (views.views().size() + most - 1) / std::max<std::size_t>(most, 1);
-    for (std::size_t k = 0; k < views.views().size(); k += std::max<std::size_t>(step, 1)) {
-        const Nearness one = views.nearness(k, x);
-        if (std::isnan(one.psnr_db) || std::isnan(one.ssim)) continue;
-        mean = {mean.psnr_db + one.psnr_db, mean.ssim + one.ssim};
-        ++eyes;
+    double psnr = 0, psnr_eyes = 0, similarity = 0, similarity_eyes = 0;
+    const std::size_t step = std::max<std::size_t>((views.views().size() + most - 1) / most, 1);
+    for (std::size_t k = 0; k < views.views().size(); k += step) {
+        const Nearness one = views.nearness(k, x);  // NaN where too few elements see the screen
+        if (!std::isnan(one.psnr_db)) psnr += one.psnr_db, ++psnr_eyes;
+        if (!std::isnan(one.ssim)) similarity += one.ssim, ++similarity_eyes;
     }
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    return eyes > 0 ? Nearness{mean.psnr_db / eyes, mean.ssim / eyes} : Nearness{nan, nan};
+    return {psnr / psnr_eyes, similarity / similarity_eyes};  // 0/0 is NaN
 }
 
 Texels white_texels(const Display& d) {
@@ -208,7 +205,9 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
         for (std::size_t j = 0; j < size; ++j)
             if (bound[j] > 0) centre[j] = std::clamp(-half[j] / bound[j], 0.f, 1.f);
     }
-    const bool scored = !held_out_eyes.empty();
+    const bool scored = !held_out_eyes.empty() && !std::isnan(mean_nearness(held_out, centre, 1).psnr_db);
+    if (!held_out_eyes.empty() && !scored)
+        report.warnings.push_back("held-out eyes see too little of the screen to be compared: the last step's panel is written");
     Solved solved = solve(request, fitted, bound, scored ? &held_out : nullptr, start_of(request, centre), centre, report);
     if (scored && !(report.held_out.psnr_db > report.held_out_traced.psnr_db)) {
         solved.x = centre;

@@ -2,6 +2,7 @@
 #include "inverse/inverse.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <random>
@@ -16,13 +17,14 @@
 namespace lfdsim {
 namespace {
 
-/// The displays that ship, each with few pixels of its camera, its middle in them.
+/// The displays that ship, each with a small panel and few pixels of its camera.
 std::vector<std::pair<std::string, Display>> shipped_displays() {
     std::vector<std::pair<std::string, Display>> all;
     for (const char* name :
          {"barrier", "desktop-asphere", "desktop-asphere-bare", "desktop-asphere-colour", "desktop-clear", "desktop-doublet",
           "desktop-ideal", "desktop-plate", "desktop-spherical", "desktop-stopped", "hexagon", "tablet-lenticular"}) {
         Display d = read_display(std::string(LFDSIM_SOURCE_DIR "/displays/") + name + ".toml", {});
+        for (std::int64_t& n : d.panel.pixels) n = std::min<std::int64_t>(n, 480);  // their middle
         d.camera.resolution = {24, 16};
         d.camera.frame_width_mm = resolve(d).frame_width_mm / 8;
         d.camera.fov_deg.reset();
@@ -31,6 +33,9 @@ std::vector<std::pair<std::string, Display>> shipped_displays() {
         d.render.samples = 36;
         all.emplace_back(name, d);
     }
+    Display gaps = all[1].second;  // whole pixels with gaps between them
+    gaps.panel.aperture_ratio = 0.6;
+    all.emplace_back("with gaps", gaps);
     return all;
 }
 

@@ -77,9 +77,9 @@ void run(const EiaArguments& args) {
         inverse = std::move(made.inverse);
     }
     if (inverse) {
-        warn(*inverse);
-        of_views += "; " + text_of(*inverse);
-        more["inverse"] = json_of(*inverse);
+        warn_of_inverse(*inverse);
+        of_views += "; " + inverse_text(*inverse);
+        more["inverse"] = inverse_json(*inverse);
     }
     if (args.mapping.given()) args.mapping.write(display, geometry, args.work.threads());
     if (picture.dark > 0) {

@@ -18,8 +18,8 @@ PanelLight shown_panel(const PanelImageOption& image, const PatternOption& shape
     if (!picture.complete) end_interrupted("");
     Json images = {{"rays", picture.rays}, {"seconds", picture.seconds}};
     if (inverse) {
-        warn(*inverse);
-        images["inverse"] = json_of(*inverse);
+        warn_of_inverse(*inverse);
+        images["inverse"] = inverse_json(*inverse);
     }
     return {shown_texels(picture.image, display.panel.encoding), {{"elemental_images", std::move(images)}}};
 }

@@ -6,15 +6,15 @@
 namespace lfdsim::cli {
 namespace {
 
-Json json_of(const Nearness& n) { return {{"psnr_db", n.psnr_db}, {"ssim", n.ssim}}; }
+Json nearness_json(const Nearness& n) { return {{"psnr_db", n.psnr_db}, {"ssim", n.ssim}}; }
 
 }  // namespace
 
-void warn(const InverseReport& report) {
+void warn_of_inverse(const InverseReport& report) {
     for (const std::string& warning : report.warnings) spdlog::warn("--pickup inverse: {}", warning);
 }
 
-std::string text_of(const InverseReport& report) {
+std::string inverse_text(const InverseReport& report) {
     const std::string crosstalk =
         report.crosstalk
             ? fmt::format("; crosstalk {:.1f} %, which --levels {:.2f},{:.2f} leave room to cancel", 100 * *report.crosstalk,
@@ -26,7 +26,7 @@ std::string text_of(const InverseReport& report) {
         report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations, crosstalk);
 }
 
-Json json_of(const InverseReport& r) {
+Json inverse_json(const InverseReport& r) {
     return {{"places", r.places},
             {"rim_places", r.rim_places},
             {"rays", r.rays},
@@ -40,9 +40,9 @@ Json json_of(const InverseReport& r) {
             {"black", r.black},
             {"white", r.white},
             {"prior", r.prior},
-            {"fitted", json_of(r.fitted)},
-            {"held_out", json_of(r.held_out)},
-            {"held_out_traced", json_of(r.held_out_traced)},
+            {"fitted", nearness_json(r.fitted)},
+            {"held_out", nearness_json(r.held_out)},
+            {"held_out_traced", nearness_json(r.held_out_traced)},
             {"crosstalk", r.crosstalk ? Json(*r.crosstalk) : Json()},
             {"traced", r.traced},
             {"at_black_percent", r.at_black_percent},

@@ -8,9 +8,9 @@
 namespace lfdsim::cli {
 
 /// Writes its warnings.
-void warn(const InverseReport&);
+void warn_of_inverse(const InverseReport&);
 /// "at 8 eyes that were not fitted: 31.1 dB, SSIM 0.83 (traced content: 27.4 dB, 0.76)".
-std::string text_of(const InverseReport&);
-Json json_of(const InverseReport&);
+std::string inverse_text(const InverseReport&);
+Json inverse_json(const InverseReport&);
 
 }  // namespace lfdsim::cli
