@@ -3,7 +3,7 @@
 PYTHONPATH=build/release/python bench/crosstalk.py
 
 A picture that is white for one eye and black for the other (Woods 2012): (leak - B)/(signal - B), from the mean luma of the views over that of a white
-panel, three elements inside the border; B is the content's black. Nodal content: each subpixel shows the picture of the eye to which most of its light goes.
+panel, three elements inside the border; B is the content's black.
 """
 import pathlib
 
@@ -41,11 +41,10 @@ def main():
     light.gain = np.median(on_axis[on_axis > 0.3 * on_axis.max()])
 
     def told(name, panel, black):
-        for aside in (0, 3):
+        for aside, where in ((0, "head in place"), (3, "3 mm to the right"), (-3, "3 mm to the left")):
             signal, leak = (light(display, panel, x + aside, white) for x in EYES)
-            print(f"{name:24} {'head in place' if aside == 0 else '3 mm aside   '}: {100 * (leak - black) / (signal - black):5.1f} %, contrast {signal / leak:.1f}")
+            print(f"{name:24} {where:17}: {100 * (leak - black) / (signal - black):5.1f} %, contrast {signal / leak:.1f}", flush=True)
 
-    # Each subpixel belongs to the side where most of its light goes: that of 22 eyes, each with a panel of one colour and channel.
     for levels in ((0.0, 1.0), (0.10, 0.90), (0.14, 0.86), (0.18, 0.82)):
         d = display.with_({"content.inverse.levels": list(levels)})
         places = [(x + aside, 0, 450) for x in EYES for aside in (-2, 0, 2)]

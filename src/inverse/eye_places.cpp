@@ -87,15 +87,13 @@ double view_step_mm(const Display& display, const Geometry& geometry, double z_m
     return is_strips(display.array) && display.panel.subpixels != SubpixelLayout::none ? step / 3 : step;
 }
 
-std::int64_t views_within(std::span<const EyeBox> boxes, const Display& display, const Geometry& geometry) {
+double views_within(std::span<const EyeBox> boxes, const Display& display, const Geometry& geometry) {
     double views = 0;
     for (const EyeBox& box : boxes) {
         const double step = view_step_mm(display, geometry, box.low[2]);
-        const double side = std::max(box.high[0] - box.low[0], is_strips(display.array) ? 0 : box.high[1] - box.low[1]);
-        views += std::ceil(side / step);
+        views += std::max(box.high[0] - box.low[0], is_strips(display.array) ? 0 : box.high[1] - box.low[1]) / step;
     }
-    if (views == 0) return std::int64_t(boxes.size());
-    return std::max<std::int64_t>(2, std::int64_t(std::min(views, 1e6)));
+    return views;
 }
 
 std::vector<Vec3d> places_within(std::span<const EyeBox> boxes, std::int64_t first, std::int64_t count) {

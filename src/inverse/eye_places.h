@@ -22,8 +22,8 @@ std::vector<EyeBox> eye_boxes(const Display&);
 /// plane, a the panel's pixel pitch, g the gap. Strips over stripes of subpixels have three views in it.
 double view_step_mm(const Display&, const Geometry&, double z_mm);
 
-/// How many views lie side by side in the longest side of the boxes, at least 2; 1 if all boxes are points.
-std::int64_t views_within(std::span<const EyeBox>, const Display&, const Geometry&);
+/// How many views lie side by side in the longest sides of the boxes; 0 of points.
+double views_within(std::span<const EyeBox>, const Display&, const Geometry&);
 
 /// Eye places spread evenly over boxes by an additive recurrence with the powers of a generalised golden ratio (M. Roberts 2018),
 /// the boxes in turn. Places from `first` on, so that held-out places continue the fitted ones.

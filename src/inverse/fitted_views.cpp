@@ -23,17 +23,17 @@ int strip_rows(const ViewRows& rows) {
 
 }  // namespace
 
-FittedViews::FittedViews(std::vector<View> views, bool entries_are_pixels, bool errors_of_codes, Exposure exposure)
-    : views_(std::move(views)), pixels_(entries_are_pixels), errors_of_codes_(errors_of_codes), exposure_(exposure) {
+FittedViews::FittedViews(std::vector<View> views, bool entries_are_pixels, bool errors_of_codes, Exposure exposure, const Job& job)
+    : views_(std::move(views)), pixels_(entries_are_pixels), errors_of_codes_(errors_of_codes), exposure_(exposure), job_(job) {
     for (std::size_t k = 0; k < views_.size(); ++k)
         for (int y = 0, step = strip_rows(views_[k].rows); y < views_[k].rows.height(); y += step)
             strips_.push_back({k, y, std::min(y + step, views_[k].rows.height())});
 }
 
-double FittedViews::keep_rows(double bytes, const Job& job) {
+double FittedViews::keep_rows(double bytes) {
     std::atomic<std::int64_t> taken{0};
     tbb::parallel_for(std::size_t(0), strips_.size(), [&](std::size_t k) {
-        if (job.cancelled() || double(taken) > bytes) return;
+        if (job_.cancelled() || double(taken) > bytes) return;
         Rows rows = views_[strips_[k].view].rows.of(strips_[k].y0, strips_[k].y1);
         const auto size = std::int64_t(rows.bytes());
         if (double(taken += size) > bytes) return;
@@ -110,6 +110,7 @@ double FittedViews::add_products(const Strip& strip, const PanelVector& x, bool 
 double FittedViews::products(const PanelVector& x, bool of_target, std::vector<std::int64_t>* sums, double& largest) const {
     std::vector<double> half_squares(strips_.size(), 0), most(strips_.size(), 0);
     tbb::parallel_for(std::size_t(0), strips_.size(), [&](std::size_t k) {
+        if (job_.cancelled()) return;
         half_squares[k] = pixels_ ? add_products<true>(strips_[k], x, of_target, sums, most[k])
                                   : add_products<false>(strips_[k], x, of_target, sums, most[k]);
     });

@@ -32,12 +32,13 @@ struct Exposure {
 
 class FittedViews {
   public:
-    FittedViews(std::vector<View>, bool entries_are_pixels, bool errors_of_codes, Exposure);
+    /// Products of a cancelled job end soon, unfinished; it must outlive this.
+    FittedViews(std::vector<View>, bool entries_are_pixels, bool errors_of_codes, Exposure, const Job&);
 
     const std::vector<View>& views() const { return views_; }
     /// Makes rows and keeps them while they take no more bytes; the others are made again at each product, with the same result.
     /// Returns the bytes taken. A cancelled job keeps no more.
-    double keep_rows(double bytes, const Job& job);
+    double keep_rows(double bytes);
 
     /// M'VU(M 1), the bound of the solver; sets the scale of later sums. Columns of pixels that no counted element sees are 0.
     PanelVector bound(std::size_t size);
@@ -71,6 +72,7 @@ class FittedViews {
     std::vector<View> views_;
     bool pixels_, errors_of_codes_;
     Exposure exposure_;
+    const Job& job_;
     std::vector<Strip> strips_;
     double per_unit_ = 0;  // integers for a unit of the sums
 };

@@ -122,6 +122,7 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
         const std::string so_far = held_out ? fmt::format(", held-out eyes {:.2f} dB", report.held_out.psnr_db) : "";
         request.job.stage(fmt::format("inverting, step {} of {}{}", step, steps, so_far), 1);
         views.half_gradient(solver.point(), gradient);
+        if (request.job.cancelled()) break;
         solver.step(gradient);
         request.job.advance(1);
         report.iterations = step;
@@ -182,17 +183,18 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     count_elements(*views, exposure.gain, 1);
     count_elements(*others, exposure.gain, 2);
     const bool pixels = entries_are_pixels(request.display), codes = keys.weighting == ErrorOf::eye;
-    FittedViews fitted(std::move(*views), pixels, codes, exposure), held_out(std::move(*others), pixels, codes, exposure);
+    FittedViews fitted(std::move(*views), pixels, codes, exposure, job), held_out(std::move(*others), pixels, codes, exposure, job);
     report.rays = fitted.rays();
     report.gain = exposure.gain;
     report.black = exposure.black;
     report.white = exposure.white;
     job.stage("rays of the eyes", 1);
-    const double left = bytes - held_out.keep_rows(bytes / 4, job);
-    fitted.keep_rows(left, job);
+    const double left = bytes - held_out.keep_rows(bytes / 4);
+    fitted.keep_rows(left);
     job.advance(1);
     const std::size_t size = std::size_t(request.display.panel.pixels[0]) * std::size_t(request.display.panel.pixels[1]) * 4;
     const PanelVector bound = fitted.bound(size);
+    if (job.cancelled()) return stopped();
     if (request.boxes.size() == 2) report.crosstalk = crosstalk_of(fitted, std::size_t(report.places), size);
     // The content's levels over the panel's light; without content the mean of what the eyes should see of each pixel.
     PanelVector centre(size, float(exposure.black));
@@ -229,9 +231,9 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
 void warn_of_few_rays(InverseReport& report, const Inverse& keys, double rows, double rays) {
     if (rows >= fewest_rows && rays >= fewest_rays) return;
     report.warnings.push_back(
-        fmt::format("the eyes' views have {:.2g} elements and {:.2g} rays with light for each panel pixel that they meet; below {} "
+        fmt::format("the eyes' views have {:.3g} elements and {:.3g} rays with light for each panel pixel that they meet; below {} "
                     "and {} the fit follows noise{}. "
-                    "Give content.inverse.places = {:.0f} or more, and no rays",
+                    "Give content.inverse.places = {:.0f} or more, and leave out content.inverse.rays",
                     rows, rays, fewest_rows, fewest_rays,
                     keys.prior ? "" : fmt::format(", and is pulled to traced content (prior {})", careful_prior),
                     std::ceil(double(report.places) * std::max(rows_wanted / rows, 1.))));
@@ -263,7 +265,9 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
     return on_threads(request.threads, [&] {
         const Inverse& keys = request.keys();
         const Plan p = plan(request);
+        if (request.job.cancelled()) return InvertedPanel{{traced.image, false}, {}};
         InverseReport report;
+        report.boxes = request.boxes;
         report.places = p.in_boxes;
         report.rim_places = std::int64_t(p.eyes.size()) - p.in_boxes;
         report.rays_per_element = p.rays;
@@ -271,6 +275,11 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
         report.rays_per_unknown = p.counts.lit * double(p.rays) / p.counts.pixels;
         const bool few = report.rows_per_unknown < fewest_rows || report.rays_per_unknown < fewest_rays;
         report.prior = keys.prior.value_or(few ? careful_prior : usual_prior);
+        if (const double views = views_within(request.boxes, request.display, request.geometry); views > 0 && views < 2)
+            report.warnings.push_back(
+                fmt::format("the eyes' box is only {:.2g} views wide: all its eyes see nearly the same; give a wider one "
+                            "(--eyes-mm)",
+                            views));
         warn_of_few_rays(report, keys, report.rows_per_unknown, report.rays_per_unknown);
         if (errors_unknown)
             report.warnings.push_back(

@@ -22,6 +22,7 @@ struct EyePictures {
 };
 
 struct InverseReport {
+    std::vector<EyeBox> boxes;                // of the eyes that are served
     std::int64_t places = 0, rim_places = 0;  // eyes fitted in the boxes and around them
     std::int64_t rays = 0;                    // of all elements of all fitted views
     std::int64_t rays_per_element = 0;

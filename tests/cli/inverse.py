@@ -52,6 +52,7 @@ BAD = {  # options -> what the message names
     "--set content.inverse.memory_mb=1 content.inverse.rays=1000": "content.inverse.memory_mb",
     "--set content.inverse.memory_mb=100000000": "content.inverse.memory_mb",
     "--set content.inverse.eyes_mm=[[0,0,600]]": "content.inverse.eyes_mm",
+    "--set content.inverse.places=1": "content.inverse.places",
     "--set content.inverse.eyes_mm=5": "content.inverse.eyes_mm",
     "--set content.inverse.pixel_mm=0.000002": "content.inverse.pixel_mm",
     "--pattern white": "--pattern",

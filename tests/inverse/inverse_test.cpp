@@ -80,7 +80,8 @@ TEST(FittedViews, HalfGradientIsTheAdjoint) {
     for (const auto& [name, d] : shipped_displays()) {
         std::vector<View> views;
         views.push_back(plain_view(d));
-        FittedViews fitted(std::move(views), entries_are_pixels(d), false, {0, 1, 1});
+        const Job job;
+        FittedViews fitted(std::move(views), entries_are_pixels(d), false, {0, 1, 1}, job);
         const std::size_t size = std::size_t(d.panel.pixels[0] * d.panel.pixels[1]) * 4;
         fitted.bound(size);
         const PanelVector x = random_vector(size, 1), y = random_vector(size, 2);
@@ -108,12 +109,13 @@ TEST(FittedViews, KeptRowsChangeNoBit) {
     for (const auto& [name, d] : shipped_displays()) {
         std::vector<View> views;
         views.push_back(plain_view(d));
-        FittedViews fitted(std::move(views), entries_are_pixels(d), true, {0.1, 0.9, 0.8});
+        const Job job;
+        FittedViews fitted(std::move(views), entries_are_pixels(d), true, {0.1, 0.9, 0.8}, job);
         const std::size_t size = std::size_t(d.panel.pixels[0] * d.panel.pixels[1]) * 4;
         fitted.bound(size);
         PanelVector made, kept;
         const double first = fitted.half_gradient(random_vector(size, 3), made);
-        EXPECT_GT(fitted.keep_rows(1e9, Job()), 0);
+        EXPECT_GT(fitted.keep_rows(1e9), 0);
         EXPECT_EQ(fitted.half_gradient(random_vector(size, 3), kept), first) << name;
         EXPECT_EQ(made, kept) << name;
     }

@@ -271,7 +271,7 @@ TEST_F(LibraryTest, NoKeyOpensAVisitorsFile) {
         EXPECT_THAT(says, testing::Not(HasSubstr("hunter2")));
         EXPECT_EQ(says, of_none[k]);
     }
-    EXPECT_EQ(files, 5);  // content.model, a model and an image of objects, errors.table, glass_catalogues
+    EXPECT_EQ(files, 6);  // content.model, a model and an image of objects, errors.table, glass_catalogues
 }
 
 // Every text in the table is the name of a file, unless the table says that it is none.

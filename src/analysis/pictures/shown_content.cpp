@@ -4,6 +4,7 @@
 #include "analysis/zone/zone.h"
 #include "analysis/zone/zone_search.h"
 
+#include <array>
 #include <cmath>
 
 namespace lfdsim {
@@ -22,9 +23,14 @@ std::vector<EyeBox> inverse_eyes(const Display& display, const Geometry& geometr
     if (!is_strips(display.array)) box.low[1] = -half_height_mm, box.high[1] = half_height_mm;
     Subject searched = subject;
     Quiet quiet(job);
-    ZoneSearch search(searched, quiet, zone_steps(searched));
-    const Zone zone = search.sideways(0, eye * std::min(3 * theory.half_fov, std::tan(1.4)));
-    for (const Interval& limits : zone.limits) {
+    std::array<Interval, 2> limits_of_zone;
+    try {
+        ZoneSearch search(searched, quiet, zone_steps(searched));
+        limits_of_zone = search.sideways(0, eye * std::min(3 * theory.half_fov, std::tan(1.4))).limits;
+    } catch (const Stopped&) {
+        return {};
+    }
+    for (const Interval& limits : limits_of_zone) {
         const double low = limits.low.place(), high = limits.high.place();
         if (limits.empty || !(low < high)) continue;
         box.low[0] = low;
@@ -36,7 +42,9 @@ std::vector<EyeBox> inverse_eyes(const Display& display, const Geometry& geometr
 
 ShownContent shown_content(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
     if (display.content.pickup != PickupKind::inverse) return {elemental_images(display, geometry, scene, threads, job), {}};
-    InvertedPanel made = invert(display, geometry, scene, inverse_eyes(display, geometry, threads, job), threads, job);
+    const std::vector<EyeBox> eyes = inverse_eyes(display, geometry, threads, job);
+    if (eyes.empty()) return {{Image(int(display.panel.pixels[0]), int(display.panel.pixels[1])), false}, {}};
+    InvertedPanel made = invert(display, geometry, scene, eyes, threads, job);
     return {std::move(made.picture), std::move(made.report)};
 }
 

@@ -10,7 +10,7 @@ namespace lfdsim {
 
 /// The boxes of eyes that the inverse pick-up serves: those of content.inverse.eyes_mm, else the zone, at the viewing distance, in
 /// which at most 1 % of the rays are wrong (analysis/zone); where there is none half of them; else that of paraxial theory. Along y
-/// it is flat for strips, and 40 mm high for lenses that image both ways.
+/// it is flat for strips, and 40 mm high for lenses that image both ways. None if the job is cancelled.
 std::vector<EyeBox> inverse_eyes(const Display&, const Geometry&, int threads, const Job&);
 
 struct ShownContent {

@@ -108,8 +108,9 @@ ViewsOption::Made ViewsOption::make(const Display& display, const Geometry& geom
     const bool inverse = display.content.pickup == PickupKind::inverse;
     Made made{{}, "", grid_json(grid)};
     if (inverse) {
-        InvertedPanel panel =
-            invert(display, geometry, views->field, inverse_eyes(display, geometry, threads, progress), threads, progress);
+        const std::vector<EyeBox> eyes = inverse_eyes(display, geometry, threads, progress);
+        if (eyes.empty()) end_interrupted("");
+        InvertedPanel panel = invert(display, geometry, views->field, eyes, threads, progress);
         made.field.picture = std::move(panel.picture);
         made.inverse = std::move(panel.report);
     } else {

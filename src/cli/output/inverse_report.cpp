@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <cmath>
 
 namespace lfdsim::cli {
 namespace {
@@ -16,18 +17,24 @@ void warn_of_inverse(const InverseReport& report) {
 
 std::string inverse_text(const InverseReport& report) {
     const std::string crosstalk =
-        report.crosstalk
+        report.crosstalk && *report.crosstalk > 5e-4
             ? fmt::format("; crosstalk {:.1f} %, which --levels {:.2f},{:.2f} leave room to cancel", 100 * *report.crosstalk,
                           *report.crosstalk / (1 + *report.crosstalk), 1 / (1 + *report.crosstalk))
             : "";
-    return fmt::format(
-        "at eyes that were not fitted: {:.2f} dB, SSIM {:.3f} (traced content: {:.2f} dB, {:.3f}); {} eyes{}, {} steps{}",
-        report.held_out.psnr_db, report.held_out.ssim, report.held_out_traced.psnr_db, report.held_out_traced.ssim, report.places,
-        report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations, crosstalk);
+    const auto nearness = [](const Nearness& n) {
+        return std::isnan(n.ssim) ? fmt::format("{:.2f} dB", n.psnr_db) : fmt::format("{:.2f} dB, SSIM {:.3f}", n.psnr_db, n.ssim);
+    };
+    return fmt::format("at eyes that were not fitted: {} (traced content: {}); {} eyes{}, {} steps{}", nearness(report.held_out),
+                       nearness(report.held_out_traced), report.places,
+                       report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations,
+                       crosstalk);
 }
 
 Json inverse_json(const InverseReport& r) {
-    return {{"places", r.places},
+    Json boxes = Json::array();
+    for (const EyeBox& box : r.boxes) boxes.push_back({{"low_mm", box.low}, {"high_mm", box.high}});
+    return {{"eyes", std::move(boxes)},
+            {"places", r.places},
             {"rim_places", r.rim_places},
             {"rays", r.rays},
             {"rays_per_element", r.rays_per_element},
