@@ -17,4 +17,14 @@ class Job {
     virtual bool cancelled() const { return false; }
 };
 
+/// Passes on cancellation alone. The stages of single pictures are not shown: progress is that of the whole run.
+class Quiet : public Job {
+  public:
+    explicit Quiet(const Job& whole) : whole_(whole) {}
+    bool cancelled() const override { return whole_.cancelled(); }
+
+  private:
+    const Job& whole_;
+};
+
 }  // namespace lfdsim

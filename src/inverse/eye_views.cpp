@@ -35,16 +35,6 @@ std::vector<std::uint8_t> without_border(std::vector<std::uint8_t> marked, int w
     return marked;
 }
 
-/// Cancellation alone: pictures of eyes have stages of their own.
-class Stages : public Job {
-  public:
-    explicit Stages(const Job& whole) : whole_(whole) {}
-    bool cancelled() const override { return whole_.cancelled(); }
-
-  private:
-    const Job& whole_;
-};
-
 }  // namespace
 
 ContentOf photographs_of(const ContentScene& scene, int threads) {
@@ -85,7 +75,7 @@ std::optional<std::vector<View>> views_of(const Request& request, const Display&
     const Geometry geometry = resolve(display);
     request.job.stage(stage, std::int64_t(eyes.size()));
     std::vector<std::optional<View>> made(eyes.size());
-    Stages quiet(request.job);
+    Quiet quiet(request.job);
     tbb::parallel_for(std::size_t(0), eyes.size(), [&](std::size_t k) {
         if (request.job.cancelled()) return;
         const Eye& eye = eyes[k];

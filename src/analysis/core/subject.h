@@ -28,16 +28,6 @@ struct AnalysisOptions {
 /// Thrown where the caller cancels the work; nothing of the current measure is kept.
 struct Stopped {};
 
-/// Passes on cancellation alone. The stages of single pictures are not shown: progress is that of the whole run.
-class Quiet : public Job {
-  public:
-    explicit Quiet(const Job& whole) : whole_(whole) {}
-    bool cancelled() const override { return whole_.cancelled(); }
-
-  private:
-    const Job& whole_;
-};
-
 /// A panel image with its tables.
 class ShownPanel {
   public:
