@@ -144,6 +144,9 @@ Display DisplayOptions::read(const std::string& path, const std::string& compare
         }
     });
     faults.report();
+    for (const char* const option : {"--eyes-mm", "--levels"})
+        if (given(option) && compared.empty() && display.content.pickup != PickupKind::inverse)
+            throw InputError(option, "is only for --pickup inverse; give that, too, or leave it out");
     return display;
 }
 
