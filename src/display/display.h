@@ -186,7 +186,7 @@ struct Inverse {
     std::optional<std::int64_t> places;  // eyes fitted
     std::optional<std::int64_t> rays;    // of an element of a view
     std::int64_t held_out = 8;           // further eyes, never fitted, which choose the panel
-    std::optional<double> rim;           // view steps around a box in which further eyes count a quarter; default 2, of strips 0
+    std::optional<double> rim;           // view steps around a box in which further eyes count a quarter; default 3, of strips 0
     std::optional<double> pupil_mm;      // default: the camera's, else 4
     std::optional<double> pixel_mm;      // an element of a view, in the plane of the content's middle
     std::optional<double> prior;         // pull to traced content; default 0.001

@@ -21,7 +21,7 @@ constexpr Key<Inverse> inverse_keys[] = {
      "Further eyes in the box, which are never fitted: they choose the panel."},
     {"rim", &Inverse::rim, Range{0, 100}, false,
      "View steps around the box in which as many further eyes count a quarter, so that eyes beside the box lose nothing.",
-     "2, of strips 0"},
+     "3, of strips 0"},
     {"pupil_mm", &Inverse::pupil_mm, Range{shortest_mm, 100}, false, "Of these eyes.", "the camera's pupil, or 4"},
     {"pixel_mm", &Inverse::pixel_mm, Range{shortest_mm, 1000}, false,
      "Width of an element of a view, in the plane of the content's middle.",

@@ -82,7 +82,7 @@ std::int64_t rays_for(const EyeCounts& counts) {
 
 Plan plan(const Request& request) {
     const Inverse& keys = request.keys();
-    const double rim = keys.rim.value_or(is_strips(request.display.array) ? 0 : 2);
+    const double rim = keys.rim.value_or(is_strips(request.display.array) ? 0 : 3);
     const auto eyes_for = [&](std::int64_t places) {
         std::vector<Eye> eyes = eyes_at(places_within(request.boxes, 0, places), 0, 1);
         const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, places);
