@@ -112,7 +112,7 @@ std::vector<Vec3d> places_around(std::span<const EyeBox> boxes, const Display& d
         const double reach = view_steps * view_step_mm(display, geometry, box.low[2]);
         for (const std::size_t c : {0u, 1u}) box.low[c] -= reach, box.high[c] += reach;
     }
-    for (std::int64_t k = 0; std::int64_t(places.size()) < count; ++k) {
+    for (std::int64_t k = 0; std::int64_t(places.size()) < count && k < 1000 * count; ++k) {
         const Vec3d place = places_within(wider, k, 1)[0];
         if (std::none_of(boxes.begin(), boxes.end(), [&](const EyeBox& box) { return is_inside(box, place); }))
             places.push_back(place);

@@ -210,10 +210,4 @@ std::int64_t FittedViews::rays() const {
     return sum;
 }
 
-std::int64_t FittedViews::counted_rows() const {
-    std::int64_t sum = 0;
-    for (const View& view : views_) sum += std::count(view.counted.begin(), view.counted.end(), 1);
-    return sum;
-}
-
 }  // namespace lfdsim

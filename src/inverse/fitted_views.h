@@ -53,8 +53,6 @@ class FittedViews {
     Nearness nearness(std::size_t k, const PanelVector& x) const;
 
     std::int64_t rays() const;
-    /// Rows with light among the counted ones, and rays with light in them, estimated by their entries before they are merged.
-    std::int64_t counted_rows() const;
 
   private:
     struct Strip {  // rows y0 to y1 - 1 of a view

@@ -2,11 +2,9 @@
 
 #include "base/input_error.h"
 #include "base/on_threads.h"
-#include "base/vec.h"
 #include "content/pictures/field_picture.h"
 #include "engine/devices/memory.h"
 #include "engine/render.h"
-#include "geometry/camera.h"
 #include "geometry/lens_misalignment.h"
 #include "image/formats/image_file.h"
 #include "inverse/box_solver.h"
@@ -15,16 +13,11 @@
 #include "inverse/plan.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <optional>
-#include <random>
 
 namespace lfdsim {
 namespace {
@@ -63,14 +56,6 @@ Nearness mean_nearness(const FittedViews& views, const PanelVector& x, std::size
     return {psnr / psnr_eyes, similarity / similarity_eyes};  // 0/0 is NaN
 }
 
-Texels white_texels(const Display& d) {
-    Texels texels(d.panel.pixels[0], d.panel.pixels[1]);
-    for (std::int64_t row = 0; row < texels.rows(); ++row)
-        for (std::int64_t k = 0; k < texels.columns(); ++k)
-            for (int c = 0; c < 3; ++c) texels.row(row)[4 * k + c] = 1;
-    return texels;
-}
-
 /// Leak over signal of two boxes' eyes, whose views take turns, each subpixel showing the picture of those that get most of its
 /// light.
 double crosstalk_of(const FittedViews& views, std::size_t in_boxes, std::size_t size) {
@@ -99,8 +84,7 @@ PanelVector start_of(const Request& request, const PanelVector& traced) {
 /// Steps from `start`, those of the best held-out eyes; without them the last.
 struct Solved {
     PanelVector x;
-    int steps = 0;
-    bool stopped = false, at_start = true;
+    bool stopped = false;
 };
 
 Solved solve(const Request& request, FittedViews& views, const PanelVector& bound, const FittedViews* held_out,
@@ -127,12 +111,12 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
         request.job.advance(1);
         report.iterations = step;
         if (!held_out) {
-            best = {solver.x(), step, false, false};
+            best.x = solver.x();
             continue;
         }
         const Nearness now = mean_nearness(*held_out, solver.x(), 1000);
         if (now.psnr_db > report.held_out.psnr_db) {
-            best = {solver.x(), step, false, false};
+            best.x = solver.x();
             report.held_out = now;
         }
         if (++waited < patience) continue;
@@ -173,7 +157,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
         return none;
     };
     const double bytes = memory_for_rays(request, display_of(request, request.display, request.geometry, eyes.front(), rays));
-    const Texels white = white_texels(request.display);
+    const Texels white = make_texels(pattern("white", request.display, request.geometry));
     const SummedPanel panel(white, request.threads);
     auto views = views_of(request, request.display, eyes, rays, content_samples, panel, "photographs of the scene");
     if (!views) return stopped();
@@ -238,10 +222,6 @@ void warn_of_few_rays(InverseReport& report, const Inverse& keys, double rows, d
                     keys.prior ? "" : fmt::format(", and is pulled to traced content (prior {})", careful_prior),
                     std::ceil(double(report.places) * std::max(rows_wanted / rows, 1.))));
 }
-
-}  // namespace
-
-namespace {
 
 /// The display that content is made for: without the errors that it does not know of.
 struct Meant {

@@ -16,6 +16,7 @@ namespace lfdsim {
 namespace {
 
 constexpr std::int64_t fewest_places = 24;  // of a box: with 6 or 8 some eyes between them lose 1 to 2.6 dB
+constexpr std::int64_t most_places = 1024;  // chosen by itself: where views have too few elements more eyes take for ever
 constexpr double rim_weight = 0.25;         // of eyes around the boxes
 constexpr std::int64_t rays_to_count = 4;   // of an element, to see how many pixels are met
 
@@ -83,20 +84,14 @@ std::int64_t rays_for(const EyeCounts& counts) {
 Plan plan(const Request& request) {
     const Inverse& keys = request.keys();
     const double rim = keys.rim.value_or(is_strips(request.display.array) ? 0 : 3);
-    const auto eyes_for = [&](std::int64_t places) {
-        std::vector<Eye> eyes = eyes_at(places_within(request.boxes, 0, places), 0, 1);
-        const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, places);
-        for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight))) eyes.push_back(eye);
-        return eyes;
-    };
     Plan p{};
     const double views = views_within(request.boxes, request.display, request.geometry);
     const auto boxes = std::int64_t(request.boxes.size());
     if (keys.places && *keys.places < 2 * boxes && views > 0)
         throw InputError("content.inverse.places",
                          fmt::format("is {}; give at least two for each box of eyes that is not a point", *keys.places));
-    p.in_boxes =
-        keys.places.value_or(views > 0 ? std::max(fewest_places * boxes, std::int64_t(std::min(std::ceil(views), 1e6))) : boxes);
+    p.in_boxes = keys.places.value_or(
+        views > 0 ? std::max(fewest_places * boxes, std::int64_t(std::min(std::ceil(views), double(most_places)))) : boxes);
     for (int attempt = 0;; ++attempt) {
         const EyeCounts inside = count(request, eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1));
         if (request.job.cancelled()) return p;
@@ -106,9 +101,13 @@ Plan plan(const Request& request) {
         const double ratio = inside.rows / inside.pixels;
         const bool fixed = keys.places || views == 0;
         if (fixed || ratio >= rows_wanted || attempt == 4) break;
-        p.in_boxes = std::int64_t(std::ceil(double(p.in_boxes) * std::max(1.05 * rows_wanted / ratio, 1.02)));
+        if (p.in_boxes >= most_places) break;
+        p.in_boxes =
+            std::min(std::int64_t(std::ceil(double(p.in_boxes) * std::max(1.05 * rows_wanted / ratio, 1.02))), most_places);
     }
-    p.eyes = eyes_for(p.in_boxes);
+    p.eyes = eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1);
+    const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, p.in_boxes);
+    for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight))) p.eyes.push_back(eye);
     p.counts = count(request, p.eyes);
     p.rays = keys.rays.value_or(rays_for(p.counts));
     return p;
