@@ -20,7 +20,7 @@ struct RenderOptions {
     std::string kernel;        // scalar | baseline | avx2 | avx512; empty: LFDSIM_KERNEL, else the best this machine has
     std::optional<Rect> crop;  // of the camera's frame; the image has the crop's size and the full frame's pixels, bit for bit
     std::optional<double> target_error = {};  // > 0, linear light: take samples until the error is below it, see refine.h
-    std::string device = {};  // cpu | cuda | cuda:N | auto: a GPU where there is one; empty: as set_default_device says
+    std::string device = {};  // cpu | cuda | cuda:N | auto: a GPU where there is one; empty: LFDSIM_DEVICE, else auto
     bool rough = false;  // filtered estimator: filtered light whose error is not measured, in larger blocks; for moving pictures
 };
 

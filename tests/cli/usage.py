@@ -87,6 +87,16 @@ checks.that("toolkit" in gpu and "driver" in gpu and "used" in gpu, f"doctor say
 text = program.must("doctor", env={"LFDSIM_KERNEL": "abacus"})
 checks.that("forced by LFDSIM_KERNEL" in text and "unknown kernel 'abacus'" in text, f"doctor, unknown kernel:\n{text}")
 
+# --device holds for every picture that a command renders, whatever the environment says.
+(program.folder / "walk.json").write_text('{"schema": 1, "frames_per_second": 1, "poses": [{"time_s": 0, "position_mm": [0, 0, 400]}]}')
+for command in ["render tiny.toml --pattern white --exposure auto -o exposed.png", "render tiny.toml --pattern white --path walk.json -o walk",
+                "views tiny.toml --of display --grid 1x1 --pattern white -o grid", "analyze dof,mtf,components,fov tiny.toml --depths-mm 0,2,1 "
+                "--angles-deg -1,1,1 -o measured"]:
+    code, _, err = program.run(f"{command} --progress none", env={"LFDSIM_DEVICE": "abacus"})
+    checks.that(code == 2 and "LFDSIM_DEVICE: unknown device 'abacus'" in err, f"{command}, unknown device: exit code {code}, said {err!r}")
+    code, _, err = program.run(f"{command} --progress none --device cpu", env={"LFDSIM_DEVICE": "abacus"})
+    checks.that(code == 0, f"{command}, --device cpu: exit code {code}, said {err!r}")
+
 before = program.files()
 for name in ["check tiny.toml", "doctor", "--help", "compare panel.png panel.png"]:
     with open("/dev/full", "w") as full:

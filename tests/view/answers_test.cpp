@@ -287,6 +287,11 @@ TEST_F(AnswersTest, PlotsAreDrawnAndStop) {
                 "panel.pixels");
 }
 
+TEST_F(AnswersTest, PlotsAreRenderedOnTheDeviceOfTheCommandLine) {
+    const Library elsewhere({folder / "small.toml", {}, "", "", "", "abacus"}, folder);
+    EXPECT_EQ(ask(elsewhere, wanted(), Ask::What::plot, "fov")["problems"][0]["key"], "--device");
+}
+
 // A medium has the control of what gives its index.
 TEST_F(AnswersTest, GlassIsAWord) {
     const Json plain = resolved(library(), wanted());

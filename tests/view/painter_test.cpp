@@ -85,6 +85,13 @@ TEST_F(PainterTest, RestingPictureIsTheRenderedOneBitForBit) {
     }
 }
 
+TEST_F(PainterTest, RendersOnTheDeviceOfTheCommandLine) {
+    const Library elsewhere({folder / "small.toml", {}, "", "", "", "abacus"}, folder.path());
+    Painter painter(elsewhere, panels, outbox, 2);
+    painter.want(wanted(1));
+    EXPECT_EQ(outbox.problems(1)[0]["key"], "--device");
+}
+
 TEST_F(PainterTest, TwoEyesHaveTheirPicturesInStep) {
     Painter painter(library, panels, outbox, 2);
     Wanted w = wanted(1);

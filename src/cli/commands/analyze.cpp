@@ -205,8 +205,8 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
             args.model.apply(display);
         });
     faults.of([&] { args.work.check(); });
-    faults.of([&] { args.device.apply(); });
     AnalysisOptions& options = request.options;
+    faults.of([&] { options.device = args.device.read(); });
     faults.of([&] { options.angles_deg = steps(args.angles, -80, 80, "-30,30,1"); });
     faults.of([&] { options.depths_mm = steps(args.depths, -1e6, 1e6, "10,300,10"); });
     faults.of([&] {

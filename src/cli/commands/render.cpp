@@ -80,9 +80,10 @@ void run(const RenderArguments& args) {
     });
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
+    std::string device;
     faults.of([&] {
         choose_kernel(args.kernel.text());
-        args.device.apply();
+        device = args.device.read();
     });
     std::optional<double> target;
     faults.of(args.target_error, [&] {
@@ -110,7 +111,7 @@ void run(const RenderArguments& args) {
     const auto light = [&] {
         return shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     };
-    const RenderOptions options{args.work.threads(), args.kernel.text(), crop, target};
+    const RenderOptions options{args.work.threads(), args.kernel.text(), crop, target, device};
     if (path) return render_frames(args, display, *path, options, light, progress);
     const PanelLight panel = light();
     Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)

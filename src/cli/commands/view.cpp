@@ -75,7 +75,7 @@ void run(const ViewArguments& args) {
     faults.of([&] { options.token = token_of(args); });
     faults.of(args.visitors, [&] { options.most_visitors = int(args.visitors.whole_number(1, 64)); });
     faults.of(args.threads, [&] { threads = int(args.threads.whole_number(1, 1024)); });
-    faults.of([&] { args.device.apply(); });
+    faults.of([&] { start.device = args.device.read(); });
     faults.of([&] { check_effects(args.command); });
     faults.report();
     options.host = args.host.text();

@@ -176,8 +176,8 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
 class ViewsMaker {
   public:
     ViewsMaker(const ViewsArguments& args, const Display& display, const Geometry& geometry, const ViewGrid& grid,
-               const Target& target)
-        : args_(args), display_(display), geometry_(geometry), grid_(grid), target_(target) {
+               const Target& target, std::string device)
+        : args_(args), display_(display), geometry_(geometry), grid_(grid), target_(target), device_(std::move(device)) {
         if (of_display())
             for (int row = 0; row < grid.rows; ++row)
                 for (int column = 0; column < grid.columns; ++column)
@@ -199,6 +199,7 @@ class ViewsMaker {
         if (scene_) return scene_view(*scene_, geometry_, grid_, column, row, making(), job);
         RenderOptions options;
         options.threads = args_.work.threads();
+        options.device = device_;
         Rendering r = grid_view(grid_camera(display_, geometry_, grid_, column, row, target_.width, target_.height), *panel_,
                                 target_.width, target_.height, options, job);
         return {std::move(r.image), r.complete, r.samples, 0, r.seconds};
@@ -217,6 +218,7 @@ class ViewsMaker {
     const Geometry& geometry_;
     const ViewGrid& grid_;
     const Target& target_;
+    const std::string device_;
     std::optional<ContentScene> scene_;
     PanelLight light_;
     std::optional<SummedPanel> panel_;
@@ -286,13 +288,14 @@ void run(const ViewsArguments& args) {
     PatternOptions pattern_options;
     ViewsWish wish;
     Target target;
+    std::string device;
     faults.of([&] { display = args.display.read(); });
     faults.of([&] { args.panel_image.check(); });
     faults.of([&] { pattern_options = args.pattern.read(); });
     faults.of([&] { wish = args.grid.read(); });
     faults.of([&] { args.of_what.word(); });
     faults.of([&] { args.model.apply(display); });
-    faults.of([&] { args.device.apply(); });
+    faults.of([&] { device = args.device.read(); });
     faults.of([&] { args.work.check(); });
     faults.of([&] { check_effects(args.command); });
     faults.of([&] {
@@ -310,7 +313,7 @@ void run(const ViewsArguments& args) {
     const Geometry geometry = resolve(display);
     const ViewGrid grid = grid_of(wish, target, args, display, geometry);
     if (args.of_display() && !args.panel_image.given()) require_panel_memory(display);
-    ViewsMaker maker(args, display, geometry, grid, target);
+    ViewsMaker maker(args, display, geometry, grid, target, device);
     const ViewsFolder folder(args.output.path(), args.kind.text(), args.depth, grid, target.how, write_display(display),
                              shown_stamp(args.panel_image, args.pattern, display).dump(), args.resume, args.replace);
     if (target.quilt)

@@ -26,7 +26,10 @@ std::optional<Rect> CropOption::read(const Camera& camera, double panel_bytes) c
     return crop;
 }
 
-void DeviceOption::apply() const { set_default_device(device_.text()); }
+std::string DeviceOption::read() const {
+    choose_device(device_.text(), "");
+    return device_.text();
+}
 
 void print_made(const Made& made, bool json, const std::string& more_text, const Json& more) {
     // Time of tracing alone: files and start are the same for all kernels.

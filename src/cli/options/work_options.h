@@ -52,8 +52,8 @@ class DeviceOption {
         : device_(command.option(
               "--device", "auto|cpu|cuda|cuda:N",
               "Device that renders: auto uses a GPU where one works; default: environment variable LFDSIM_DEVICE, else auto")) {}
-    /// Makes it the device of all renderings that name none. Throws InputError that says what is missing.
-    void apply() const;
+    /// The device as RenderOptions has it; empty where none is given. Throws InputError that says what is missing.
+    std::string read() const;
 
   private:
     Option device_;

@@ -56,8 +56,6 @@ const KernelEntry& choose_kernel(const std::string& wanted) {
 
 namespace {
 
-std::string default_device;
-
 // The number of "cuda:N", "cuda" alone being 0.
 std::optional<int> gpu_number(const std::string& word) {
     if (word == "cuda") return 0;
@@ -71,7 +69,7 @@ std::optional<int> gpu_number(const std::string& word) {
 }  // namespace
 
 ChosenDevice choose_device(const std::string& wanted, const std::string& kernel) {
-    std::string word = wanted.empty() ? default_device : wanted, where = "--device";
+    std::string word = wanted, where = "--device";
     if (const char* const named = std::getenv("LFDSIM_DEVICE"); word.empty() && named && *named) {
         word = named;
         where = "environment variable LFDSIM_DEVICE";
@@ -94,11 +92,6 @@ ChosenDevice choose_device(const std::string& wanted, const std::string& kernel)
     const cuda::Gpu& gpu = found.gpus[std::size_t(*n)];
     if (!gpu.why_not.empty()) throw InputError(where, word + ": " + gpu.name + ": " + gpu.why_not);
     return {*n, true};
-}
-
-void set_default_device(const std::string& word) {
-    choose_device(word, "");
-    default_device = word;
 }
 
 }  // namespace lfdsim

@@ -25,12 +25,9 @@ struct ChosenDevice {
     bool insists = false;
 };
 
-/// The device named by `wanted` (RenderOptions::device). auto is the first GPU that works, but the CPU where the user asks for one
-/// of its kernels. Throws InputError, which says what is missing, where there is no such GPU.
+/// The device named by `wanted` (RenderOptions::device), else by the environment variable LFDSIM_DEVICE, else auto. auto is the
+/// first GPU that works, but the CPU where the user asks for one of its kernels. Throws InputError, which says what is missing,
+/// where there is no such GPU.
 ChosenDevice choose_device(const std::string& wanted, const std::string& kernel);
-
-/// Sets the device of renderings that name none; until then it is that of the environment variable LFDSIM_DEVICE, else auto. Throws
-/// InputError as choose_device. To be called before work begins.
-void set_default_device(const std::string&);
 
 }  // namespace lfdsim

@@ -145,7 +145,7 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
             const ContentScene scene =
                 panels.scene(model_source(model_file(library, wanted, display), display), display, resolve(display), job);
             const auto claim = panels.budget().claim("panel.pixels", making_panel_text(display), 2 * making_panel_bytes(display));
-            return {{"svg", svg(fov_plot(display, scene, job), ask.width)}};
+            return {{"svg", svg(fov_plot(display, scene, library.start().device, job), ask.width)}};
         }
         case Ask::What::files: {
             const Library::Files files = library.files(wanted_or_started(library, wanted));

@@ -17,6 +17,7 @@ struct Start {
     std::string model;             // --model; empty: the description's
     std::filesystem::path panel_image;
     std::string pattern;
+    std::string device = {};  // --device, as RenderOptions has it
 };
 
 class Library {

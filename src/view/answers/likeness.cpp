@@ -12,7 +12,8 @@
 
 namespace lfdsim::view {
 
-double WhiteField::of(const Display& seen, const Geometry& geometry, bool quick, int threads, const Job& job) {
+double WhiteField::of(const Display& seen, const Geometry& geometry, bool quick, int threads, const std::string& device,
+                      const Job& job) {
     // A white panel with fewer and larger pixels is as white, and made sooner.
     Display d = seen;
     d.name.clear();
@@ -33,6 +34,7 @@ double WhiteField::of(const Display& seen, const Geometry& geometry, bool quick,
     if (of_ != d) {
         AnalysisOptions options;
         options.threads = threads;
+        options.device = device;
         light_ = Subject(d, {}, options).white_field(job);
         of_ = d;
     }

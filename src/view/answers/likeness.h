@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace lfdsim::view {
@@ -13,7 +14,7 @@ namespace lfdsim::view {
 class WhiteField {
   public:
     /// More than 0. Quick: from few pixels, accurate to about 1 %. Throws Stopped; InputError where the camera sees no light.
-    double of(const Display&, const Geometry&, bool quick, int threads, const Job&);
+    double of(const Display&, const Geometry&, bool quick, int threads, const std::string& device, const Job&);
 
   private:
     std::optional<Display> of_;

@@ -30,7 +30,7 @@ Display small(Display d) {
 
 }  // namespace
 
-Plot fov_plot(const Display& display, const ContentScene& shown_there, const Job& job) {
+Plot fov_plot(const Display& display, const ContentScene& shown_there, const std::string& device, const Job& job) {
     if (const auto [columns, rows] = display.panel.pixels; columns * rows > most_panel_pixels)
         throw InputError("panel.pixels",
                          fmt::format("{} x {} are too many for a plot that takes seconds, which is for 7680 x 4320 or "
@@ -43,7 +43,9 @@ Plot fov_plot(const Display& display, const ContentScene& shown_there, const Job
         if (job.cancelled()) throw Stopped{};
     const Display d = small(display);
     const Geometry g = resolve(d);
-    Subject subject(d, shown_there.before(g), {});
+    AnalysisOptions options;
+    options.device = device;
+    Subject subject(d, shown_there.before(g), options);
     const double edge = 0.5 * subject.theory(0).fov_elemental_deg, depth = fov_depth_mm(subject);
     const double highest =
         std::acos(std::min(1.2 * nearest_eye_mm(g) / d.camera.position_mm[2], 1.)) / degree;  // still in front of the display
@@ -56,7 +58,8 @@ Plot fov_plot(const Display& display, const ContentScene& shown_there, const Job
     for (int k = -angles_each_side; k <= angles_each_side; ++k) {
         const double angle = most * k / angles_each_side;
         const Display seen = seen_from(d, angle, 0);
-        const Likeness l = likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->summed(), white, {}, job);
+        const Likeness l =
+            likeness(expected_view(seen, g, scene, 0, job), seen, g, shown->summed(), white, subject.rendering(), job);
         for (Series* of : {&of_content, &of_screen}) of->x.push_back(angle);
         of_content.y.push_back(l.content);
         of_screen.y.push_back(l.screen);

@@ -29,7 +29,7 @@ constexpr double jpeg_cost = 6e-9, png_cost = 25e-9, panel_cost = 30e-9;  // sec
 void Drawing::begin(const Wanted& wanted) {
     eyes_.clear();
     wanted_ = wanted;
-    on_gpu_ = choose_device("", "").gpu.has_value();
+    on_gpu_ = choose_device(library_.start().device, "").gpu.has_value();
     coarse_is_full_ = false;
     pictures_ = {};
     eyes_ = seen(library_, wanted);
@@ -93,7 +93,7 @@ void Drawing::beside(const LitDisplay& lit, const Display& display, const Geomet
     bool comparable = true;
     const auto claim = panels_.budget().claim("panel.pixels", "a white panel to compare with", texel_bytes(display));
     try {
-        white = (rest ? white_ : quick_white_).of(display, geometry, !rest, threads_, quiet);
+        white = (rest ? white_ : quick_white_).of(display, geometry, !rest, threads_, library_.start().device, quiet);
     } catch (const InputError&) {  // no light, no likeness
         comparable = false;
     }
@@ -118,6 +118,7 @@ Drawing::Frames Drawing::pictures(const std::vector<LitDisplay>& all, Quality qu
         const Geometry geometry = rest ? lit.seen.geometry : resolve(display);
         RenderOptions options;
         options.threads = threads_;
+        options.device = library_.start().device;
         options.rough = quality == Quality::coarse;
         Rendering r = render(display, geometry, lit.light->summed(), options, job);
         if (!r.complete) throw Stopped{};
@@ -180,7 +181,7 @@ Drawing::DrawnFrame Drawing::exr(std::int64_t id, Job& job) {
     FrameHeader header{id, "file", Quality::final};
     for (const EyeDisplay& eye : eyes_) {
         const LitDisplay lit = true_light(eye, job);
-        Rendering r = render(eye.display, eye.geometry, lit.light->summed(), {threads_, "", {}}, job);
+        Rendering r = render(eye.display, eye.geometry, lit.light->summed(), {threads_, "", {}, {}, library_.start().device}, job);
         if (!r.complete) throw Stopped{};
         header.width = r.image.width;
         header.height = r.image.height;
