@@ -5,11 +5,13 @@ include(CMakePackageConfigHelpers)
 add_library(lfdsim_umbrella INTERFACE)
 add_library(lfdsim::lfdsim ALIAS lfdsim_umbrella)
 set_target_properties(lfdsim_umbrella PROPERTIES EXPORT_NAME lfdsim)
-set(libraries lfdsim_model lfdsim_image lfdsim_engine lfdsim_meshed lfdsim_content lfdsim_inverse lfdsim_files lfdsim_analysis lfdsim_report)
+target_sources(lfdsim_umbrella INTERFACE FILE_SET HEADERS BASE_DIRS src FILES src/lfdsim/lfdsim.h)
+set(libraries lfdsim_model lfdsim_image lfdsim_engine lfdsim_content lfdsim_inverse lfdsim_files lfdsim_analysis)
 target_link_libraries(lfdsim_umbrella INTERFACE ${libraries})
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/lfdsim)
-install(TARGETS lfdsim_umbrella ${libraries} EXPORT lfdsimTargets
+install(TARGETS lfdsim_umbrella EXPORT lfdsimTargets FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS ${libraries} EXPORT lfdsimTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lfdsim)
 install(EXPORT lfdsimTargets NAMESPACE lfdsim:: DESTINATION ${package})

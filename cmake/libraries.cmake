@@ -5,8 +5,8 @@ function(lfdsim_for_shared_libraries target)
     CUDA_VISIBILITY_PRESET hidden)
 endfunction()
 
-# The static library lfdsim_NAME of the C++ files in ROOMS, folders of src (by default NAME and all in it). HEADERS are what other
-# projects may include; LINK is handed to target_link_libraries.
+# The static library lfdsim_NAME of the C++ files in ROOMS, folders of src (by default NAME and all in it). HEADERS are the
+# public ones, which lfdsim/lfdsim.h includes and which are installed; LINK is handed to target_link_libraries.
 # Usage: lfdsim_library(image HEADERS image/image.h LINK PUBLIC lfdsim_model PRIVATE PNG::PNG)
 function(lfdsim_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;HEADERS;LINK")

@@ -1,4 +1,4 @@
-// Errors that a user can fix. Floor 0.
+// Errors that a user can fix. Floor 0, public.
 #pragma once
 #include <stdexcept>
 #include <string>

@@ -1,4 +1,4 @@
-// Progress and cancellation of long work. Floor 0.
+// Progress and cancellation of long work. Floor 0, public.
 #pragma once
 #include <cstdint>
 #include <string_view>

@@ -1,6 +1,7 @@
 #include "base/constants.h"
 #include "checks/advice_parts.h"
 #include "checks/depth_words.h"
+#include "geometry/resolve.h"
 #include "geometry/sharp_range.h"
 
 #include <algorithm>

@@ -1,10 +1,9 @@
-// What the panel shows: scenes, elemental images, test patterns, reference photographs. Floor 2.
+// What the panel shows: scenes, elemental images, test patterns, reference photographs. Floor 2, public.
 #pragma once
 #include "base/input_error.h"
 #include "base/job.h"
 #include "display/display.h"
 #include "geometry/geometry.h"
-#include "image/compare/compare.h"
 #include "image/image.h"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A light field display and the eye that looks at it, as its description file gives them. Floor 0: plain data, no I/O.
+// A light field display and the eye that looks at it, as its description file gives them. Floor 0, public: plain data, no I/O.
 // Lengths in millimetres, angles in degrees (fields that end in _deg). Keys, ranges and defaults: docs/format.md.
 // Frame: the panel lies in z = 0 centred on the origin and faces +z; +x is the viewer's right, +y is up.
 #pragma once

@@ -1,4 +1,5 @@
-// The choices that a display description offers. Floor 0; no library headers, so that every kernel may include it.
+// The choices that a display description offers. Floor 0, public as a part of display.h; no library headers, so that every kernel
+// may include it.
 #pragma once
 
 namespace lfdsim {

@@ -1,4 +1,4 @@
-// Glasses and plastics: the refractive index against the wavelength. Floor 0; no I/O.
+// Glasses and plastics: the refractive index against the wavelength. Floor 0, public as a part of display.h; no I/O.
 #pragma once
 #include <array>
 #include <limits>

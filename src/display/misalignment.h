@@ -1,4 +1,5 @@
-// How the array that was built differs from the one that a description asks for. Floor 0: plain data.
+// How the array that was built differs from the one that a description asks for. Floor 0, public as a part of display.h: plain
+// data.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 # The engine: its floor with the CPU's kernels (kernels.cmake) and, where they are compiled, the GPU's (gpu.cmake).
 lfdsim_library(engine ROOMS engine engine/devices engine/estimator engine/scene engine/views engine/wide
-  HEADERS engine/estimator/summed_panel.h engine/render.h engine/views/screen.h
+  HEADERS engine/estimator/summed_panel.h engine/render.h
   LINK PUBLIC lfdsim_model lfdsim_image PRIVATE TBB::tbb fmt::fmt)
 set(here ${CMAKE_CURRENT_LIST_DIR})
 

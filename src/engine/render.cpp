@@ -6,6 +6,7 @@
 #include "engine/devices/gpu.h"
 #include "engine/estimator/choice.h"
 #include "engine/estimator/gaussian_parts.h"
+#include "engine/estimator/panel_planes.h"
 #include "engine/estimator/refine.h"
 #include "engine/scene/traced_display.h"
 #include "engine/scene/tracer.h"
@@ -262,14 +263,14 @@ Rendering render_with(const Tracer& tracer, const Display& display, const Geomet
 Rendering render(const Display& display, const Geometry& geometry, const SummedPanel& panel, const RenderOptions& options,
                  Job& job) {
     check_threads(options);
-    return render(display, geometry, panel.planes(panel_reading(display)), &panel, options, job);
+    return render(display, geometry, planes_of(panel, panel_reading(display)), &panel, options, job);
 }
 
 Rendering render(const Display& display, const Geometry& geometry, const Texels& panel, const RenderOptions& options, Job& job) {
     check_threads(options);
     const auto start = std::chrono::steady_clock::now();
     const SummedPanel summed(panel, options.threads);
-    const std::vector<optics::SummedImage>& planes = summed.planes(panel_reading(display));
+    const std::vector<optics::SummedImage>& planes = planes_of(summed, panel_reading(display));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     Rendering result = render(display, geometry, planes, nullptr, options, job);
     if (planes[0].sums) result.prepare_seconds = seconds;

@@ -1,10 +1,9 @@
-// The picture that an eye or camera sees of a display. Floor 2: threads, kernels, tiles over the optics.
+// The picture that an eye or camera sees of a display. Floor 2, public: threads, kernels, tiles over the optics.
 #pragma once
 #include "base/job.h"
 #include "display/display.h"
 #include "engine/estimator/summed_panel.h"
 #include "geometry/geometry.h"
-#include "image/compare/compare.h"
 #include "image/image.h"
 #include "image/texels.h"
 

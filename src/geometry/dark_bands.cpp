@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "geometry/prescription.h"
+#include "geometry/resolve.h"
 
 namespace lfdsim {
 namespace {

@@ -1,4 +1,4 @@
-// What follows from a display description: the positions of all parts, and paraxial theory. Floor 0.
+// What follows from a display description: the positions of all parts, and paraxial theory. Floor 0, public.
 #pragma once
 #include "base/input_error.h"
 #include "display/display.h"
@@ -72,9 +72,6 @@ struct Geometry {
     std::optional<double> content_height_mm;  // absent: as high as the objects make it
 };
 
-/// Midway between the nearest and the furthest object's middle, from the viewer-side vertex plane as they; of one or more.
-double middle_z_mm(const std::vector<SceneObject>&);
-
 /// Along one of the array's own axes, p its pitch there.
 struct AxisTheory {
     double fov_deg;                     // 2 atan(p / 2g)
@@ -113,20 +110,11 @@ std::vector<Problem> validate(const Display&);
 
 /// Resolves a valid description, in the light of the green channel. Throws InputError with validate()'s problems otherwise.
 Geometry resolve(const Display&);
-/// The geometry for which elemental images are made: that of the display without its errors, but for content.made_for =
-/// "built".
-Geometry meant_geometry(const Display&, const Geometry& built);
 /// Resolves a display in light of another wavelength, its parts at their places for green: indices, focal length, principal
 /// points, gap and reduced lengths are those of that light.
 Geometry resolve(const Display&, double wavelength_nm);
 
 Theory theory(const Display&, const Geometry&);
-
-/// Whether a stop lies in the entrance plane: light then passes it before it meets the lens.
-bool stop_at_entrance(const Display&, const Geometry&);
-
-/// D along a lens's wider axis.
-double widest_aperture_mm(const Geometry&);
 
 /// The eye's distance from the panel that theory and measures assume: the camera's from the panel's centre.
 double eye_distance_mm(const Display&);

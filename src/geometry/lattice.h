@@ -1,5 +1,5 @@
-// Where the lenses of an array stand. Floor 0: plain data; the functions on it are in optics/lattice.h, compiled once for each
-// instruction set.
+// Where the lenses of an array stand. Floor 0, public as a part of geometry.h: plain data; the functions on it are in
+// optics/lattice.h, compiled once for each instruction set.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -48,25 +48,5 @@ double inner_radius_mm(const LensArray&);
 double outer_radius_mm(const LensArray&);
 
 Lattice<double> make_lattice(const Panel&, const LensArray&);
-
-/// Each of its numbers rounded to S.
-template <class S>
-Lattice<S> rounded(const Lattice<double>& from) {
-    const auto both = [](const double(&of)[2], S(&to)[2]) {
-        for (int k = 0; k < 2; ++k) to[k] = S(of[k]);
-    };
-    Lattice<S> to{};
-    both(from.pitch, to.pitch);
-    both(from.per_pitch, to.per_pitch);
-    both(from.half_pitch, to.half_pitch);
-    both(from.count, to.count);
-    both(from.offset, to.offset);
-    to.cos_turn = S(from.cos_turn);
-    to.sin_turn = S(from.sin_turn);
-    to.staggered = from.staggered;
-    to.hexagonal = from.hexagonal;
-    to.strips = from.strips;
-    return to;
-}
 
 }  // namespace lfdsim

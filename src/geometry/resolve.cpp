@@ -7,6 +7,7 @@
 #include "geometry/lens_misalignment.h"
 #include "geometry/prescription.h"
 #include "geometry/pupil.h"
+#include "geometry/resolve.h"
 
 namespace lfdsim {
 namespace {

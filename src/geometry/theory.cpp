@@ -8,6 +8,7 @@
 #include "geometry/geometry.h"
 #include "geometry/layers.h"
 #include "geometry/lens_misalignment.h"
+#include "geometry/resolve.h"
 #include "geometry/screen.h"
 
 namespace lfdsim {

@@ -1,4 +1,4 @@
-// A picture in linear light. Floor 0.
+// A picture in linear light. Floor 0, public.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -14,6 +14,11 @@ struct Image {
     Image(int w, int h);  // black
     float* at(int column, int row) { return &rgb[(std::size_t(row) * width + column) * 3]; }
     const float* at(int column, int row) const { return &rgb[(std::size_t(row) * width + column) * 3]; }
+};
+
+/// A part of a picture.
+struct Rect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // columns x0 .. x1-1, rows y0 .. y1-1
 };
 
 }  // namespace lfdsim

@@ -1,4 +1,4 @@
-// The panel image as the renderer reads it. Floor 0.
+// The panel image as the renderer reads it. Floor 0, public.
 #pragma once
 #include "display/display.h"
 #include "image/image.h"

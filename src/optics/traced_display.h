@@ -52,7 +52,7 @@ struct SubpixelPart {
     std::int32_t cell[2];      // pixels
     S per_cell[2];             // 1 / cell
     std::int32_t pixel[2];     // whose light it shows, from the cell's first
-    std::int32_t plane;        // the number of the picture of those pixels of all cells (engine/estimator/summed_panel.h)
+    std::int32_t plane;        // the number of the picture of those pixels of all cells (engine/estimator/panel_planes.h)
     S from[2], to[2], per[2];  // per: 1 / (to - from)
     S share;                   // of the channel's light
 };

@@ -1,3 +1,4 @@
+#include "analysis/core/figure_json.h"
 #include "analysis/core/measure.h"
 #include "analysis/pictures/views.h"
 #include "engine/devices/devices.h"

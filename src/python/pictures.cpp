@@ -1,4 +1,4 @@
-#include "analysis/core/subject.h"
+#include "analysis/core/elemental_panel.h"
 #include "analysis/pictures/shown_content.h"
 #include "base/counted.h"
 #include "content/content.h"

@@ -2,8 +2,6 @@
 find_package(Boost 1.74 REQUIRED GLOBAL)  # the tests use it too
 
 lfdsim_library(view
-  HEADERS view/answers/answers.h view/answers/hidden_paths.h view/answers/library.h view/painting/painter.h view/server/access.h
-    view/server/messages.h view/server/outbox.h view/server/server.h
   LINK PUBLIC lfdsim_report lfdsim_files nlohmann_json::nlohmann_json
     PRIVATE Boost::headers Threads::Threads PNG::PNG JPEG::JPEG TBB::tbb fmt::fmt)
 lfdsim_precompile(lfdsim_view <fmt/format.h> <nlohmann/json.hpp>)

@@ -1,9 +1,11 @@
 // Resolution of each channel, with subpixels and under glass that disperses, against lines of sight written down anew from
 // docs/model.md.
 #include "analysis/core/channel_pixels.h"
+#include "analysis/core/elemental_panel.h"
 #include "analysis/resolution/mtf.h"
 #include "analysis/resolution/mtf_curves.h"
 #include "base/constants.h"
+#include "engine/estimator/panel_planes.h"
 #include "optics/traced_display.h"
 
 #include <fmt/format.h>
@@ -230,7 +232,7 @@ TEST(MtfOfColours, EdgesAreMadeForSubpixels) {
         Bars bars = bars_across(directions(d).front(), g.vertex_plane_mm + 120);
         bars.width_mm = 1e6;
         const auto panel = bars_panel(d, g, bars, 1);
-        const optics::SummedImage& level = panel->summed().planes().front();
+        const optics::SummedImage& level = planes_of(panel->summed()).front();
         std::int64_t wrong = 0, differ = 0;
         for (std::uint32_t row = 0; row < level.rows; ++row)
             for (std::uint32_t column = 0; column < level.columns; ++column) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/scene/traced_display.h"
+#include "image/compare/compare.h"
 #include "pictures.h"
 
 namespace lfdsim {

@@ -1,6 +1,7 @@
 // Subpixels in pictures: single rays against a search over the described rectangles, means over boxes against the area of those
 // rectangles.
 #include "geometry/subpixels.h"
+#include "engine/estimator/panel_planes.h"
 
 #include <gtest/gtest.h>
 
@@ -105,7 +106,7 @@ struct ReadPanel {
           summed(shown),
           reading{.planes = planes(d.panel)},
           scene(make_traced_display<float>(d, resolve(d))) {
-        light = {summed.planes(reading).data(), scene.emission.whole, &scene.emission};
+        light = {planes_of(summed, reading).data(), scene.emission.whole, &scene.emission};
     }
     double light_at(double x, double y, int c) const { return lfdsim::light_at(panel, shown, x, y, c); }
 

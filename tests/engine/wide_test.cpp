@@ -11,6 +11,7 @@
 #include "../sanitizers.h"
 #include "engine/devices/gpu.h"
 #include "engine/estimator/gaussian_parts.h"
+#include "engine/estimator/panel_planes.h"
 #include "engine/scene/work.h"
 #include "engine/views/compare_view.h"
 #include "engine/views/pipelined.h"
@@ -40,7 +41,7 @@ Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& op
     Job job;
     const SummedPanel summed(panel);
     const Geometry geometry = resolve(d);
-    const auto& planes = summed.planes(panel_reading(d));
+    const auto& planes = planes_of(summed, panel_reading(d));
     Work work(d, geometry, planes, options);
     work.make_pictures(options.target_error.has_value());
     const wide::DevicePanel there(queue, planes[0]);
@@ -100,9 +101,9 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
     const SummedPanel summed(panel);
     HostQueue queue;
     queue.points = 7 * 256 * *d.render.samples;  // of seven squares
-    Work work(d, resolve(d), summed.planes(), {});
+    Work work(d, resolve(d), planes_of(summed), {});
     work.make_pictures(false);
-    const wide::DevicePanel there(queue, summed.planes()[0]);
+    const wide::DevicePanel there(queue, planes_of(summed)[0]);
     EXPECT_FALSE(wide::render(queue, there, work.tile, {}, nullptr, job).complete);
     EXPECT_GT(job.done, 0);
     EXPECT_LT(job.done, 160 * 112);
@@ -115,8 +116,8 @@ TEST(Wide, SaysWhatMemoryItWants) {
     const Texels panel = uniform_panel(d, 1);
     const SummedPanel summed(panel);
     HostQueue small(1000);
-    EXPECT_THROW(wide::DevicePanel(small, summed.planes()[0]), wide::DeviceError);
-    EXPECT_GE(wide::DevicePanel::bytes(summed.planes()[0]), std::size_t(panel.columns() * panel.rows()) * 16);
+    EXPECT_THROW(wide::DevicePanel(small, planes_of(summed)[0]), wide::DeviceError);
+    EXPECT_GE(wide::DevicePanel::bytes(planes_of(summed)[0]), std::size_t(panel.columns() * panel.rows()) * 16);
 }
 
 /// A photograph that is somewhat like the view of a crop, and regions of both.
@@ -148,9 +149,9 @@ TEST(Wide, LikenessHasTheSameBits) {
         const Expected expected = expected_of(view);
         HostQueue queue;
         Job job;
-        const wide::DevicePanel there(queue, summed.planes()[0]);
+        const wide::DevicePanel there(queue, planes_of(summed)[0]);
         const wide::Photograph photograph(queue, expected.photograph());
-        const Work work(d, resolve(d), summed.planes(), options);
+        const Work work(d, resolve(d), planes_of(summed), options);
         wide::Comparison comparison(queue, photograph, expected.screen, expected.content);
         const wide::Buffer<float> seen(queue, view.rgb.size());
         EXPECT_TRUE(wide::render_there(queue, there, work.tile, seen.get(), job).complete);

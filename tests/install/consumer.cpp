@@ -1,7 +1,8 @@
 // A white panel seen through lenses without losses is exactly white: radiance does not change along a ray.
-#include "content/content.h"
-#include "engine/render.h"
-#include "files/description/display_file.h"
+// A public header may also be included by itself.
+#include <lfdsim/content/content.h>
+#include <lfdsim/engine/render.h>
+#include <lfdsim/files/description/display_file.h>
 
 #include <iostream>
 

@@ -7,6 +7,14 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/lfdsim install.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 
 cmake --install "$1" --prefix "$work/prefix" >/dev/null
+
+# What is installed is what <lfdsim/lfdsim.h> includes, and no more.
+(
+    cd "$work/prefix/include"
+    diff <(find lfdsim -name '*.h' | sort) \
+        <("$2" -std=c++20 -M -I. -Ilfdsim -x c++ lfdsim/lfdsim.h | tr -s ' \\' '\n' | grep '^lfdsim/' | sort -u)
+)
+
 cmake -S "$here" -B "$work/build" -G Ninja -D CMAKE_CXX_COMPILER="$2" -D CMAKE_PREFIX_PATH="$work/prefix"
 cmake --build "$work/build"
 "$work/build/consumer"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/estimator/box_means.h"
-#include "engine/estimator/summed_panel.h"
+#include "engine/estimator/panel_planes.h"
 #include "example.h"
 
 namespace lfdsim::optics {
@@ -29,7 +29,7 @@ struct Box {
 
 std::array<float, 4> light_of(const SummedPanel& panel, const Box& box) {
     Light<float> light;
-    add_boxes(panel.planes()[0], PanelBase<float>{base_column, base_row, 0, 0},
+    add_boxes(planes_of(panel)[0], PanelBase<float>{base_column, base_row, 0, 0},
               Boxes<float>{float(box.column - base_column), float(box.row - base_row), float(box.wide), float(box.high), 1.0f},
               light);
     return {light.sum[0], light.sum[1], light.sum[2], light.sum[3]};

@@ -1,4 +1,6 @@
 #include "view/painting/panels.h"
+#include "analysis/core/elemental_panel.h"
+#include "engine/estimator/panel_planes.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -52,7 +54,7 @@ TEST_F(PanelsTest, AFileThatChangesIsReadAgain) {
     std::filesystem::remove(folder / "panel.png");
     write_image(folder / "panel.png", image);
     const auto white = get(display(), source_of(library, shown, display()));
-    EXPECT_EQ(white->summed().planes()[0].texels[0], 1);
+    EXPECT_EQ(planes_of(white->summed())[0].texels[0], 1);
 }
 
 TEST_F(PanelsTest, ScenesThatAreMovedAreThoseMadeThere) {

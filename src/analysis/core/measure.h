@@ -1,4 +1,4 @@
-// The measures, by name. Floor 3.
+// The measures, by name. Floor 3, public.
 #pragma once
 #include "analysis/core/result.h"
 #include "analysis/core/subject.h"

@@ -1,6 +1,17 @@
 #include "analysis/core/result.h"
 
+#include "analysis/core/estimate.h"
+#include "analysis/core/figure_json.h"
+
+#include <cmath>
+
 namespace lfdsim {
+
+FigureValue::FigureValue(const Estimate& e, const std::string& why_missing)
+    : FigureValue(std::vector{e.value}, std::vector{e.error}, std::isnan(e.value) ? why_missing : std::string()) {}
+
+FigureValue::FigureValue(const Estimate& low, const Estimate& high, std::string why_missing)
+    : FigureValue(std::vector{low.value, high.value}, std::vector{low.error, high.error}, std::move(why_missing)) {}
 
 void write_value(Json& object, const std::string& name, const FigureValue& value) {
     const auto json = [](const std::vector<double>& x) {

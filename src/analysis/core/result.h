@@ -1,15 +1,12 @@
-// What a measure finds: figures, curves, pictures. Floor 3: plain data.
+// What a measure finds: figures, curves, pictures. Floor 3, public as a part of measure.h: plain data.
 //
 // A measure states each figure once, by Result::add(): scripts' number, error and reason, and the report's line follow from it.
 #pragma once
-#include "analysis/core/estimate.h"
-#include "geometry/lattice.h"
 #include "image/image.h"
 
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -21,21 +18,7 @@ namespace lfdsim {
 
 using Json = nlohmann::ordered_json;
 
-/// A figure for scripts: null where it is undefined (NaN), "infinite" or "-infinite" where it has no finite value.
-inline Json number_json(double x) {
-    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
-    return std::isnan(x) ? Json() : Json(x);
-}
-inline Json numbers_json(const std::vector<double>& all) {
-    Json json = Json::array();
-    for (const double x : all) json.push_back(number_json(x));
-    return json;
-}
-
-/// A figure along the array's own x and y; one number where they do not differ by the lattice.
-inline Json axes_json(const LensArray& array, double along_x, double along_y) {
-    return differs_by_axis(array) ? numbers_json({along_x, along_y}) : number_json(along_x);
-}
+struct Estimate;  // estimate.h
 
 /// The value of a figure is a number or an interval of two, measured or by theory, with its errors.
 struct FigureValue {
@@ -54,14 +37,9 @@ struct FigureValue {
     FigureValue(std::vector<double> all, std::vector<double> error = {}, std::string why_missing = {})
         : numbers(std::move(all)), errors(std::move(error)), missing(std::move(why_missing)) {}
     /// `why_missing` is kept where the estimate is NaN.
-    FigureValue(const Estimate& e, const std::string& why_missing = {})
-        : FigureValue(std::vector{e.value}, std::vector{e.error}, std::isnan(e.value) ? why_missing : std::string()) {}
-    FigureValue(const Estimate& low, const Estimate& high, std::string why_missing = {})
-        : FigureValue(std::vector{low.value, high.value}, std::vector{low.error, high.error}, std::move(why_missing)) {}
+    FigureValue(const Estimate&, const std::string& why_missing = {});
+    FigureValue(const Estimate& low, const Estimate& high, std::string why_missing = {});
 };
-
-/// Writes object[name] and, of a value with errors, object[name + "_error"].
-void write_value(Json& object, const std::string& name, const FigureValue&);
 
 /// A line of the report's table says what a figure is, in which unit, and what theory has for it.
 struct FigureLine {
@@ -155,7 +133,7 @@ struct Animation {
 };
 
 struct Result {
-    // What scripts read: names end in their unit, the error of NAME is NAME_error; numbers as number_json() writes them.
+    // What scripts read: names end in their unit, the error of NAME is NAME_error; numbers as figure_json.h writes them.
     Json figures = Json::object();
     Json notes = Json::object();  // why a figure is null: {"PATH.OF.NAME": "..."}
     void note(const std::string& path, const std::string& why) { notes[path] = why; }

@@ -1,6 +1,6 @@
 #include "analysis/core/subject.h"
 
-#include "analysis/pictures/shown_content.h"
+#include "analysis/core/elemental_panel.h"
 #include "analysis/pictures/views.h"
 #include "engine/render.h"
 
@@ -27,16 +27,6 @@ double Subject::viewing_distance_mm() const { return options_.viewing_distance_m
 const ContentScene& Subject::scene() const {
     if (!scene_) throw InputError("--model", "there is nothing to show; give a mesh file or built-in:spheres");
     return *scene_;
-}
-
-ShownPanel::ShownPanel(Texels texels, int threads) : texels_(std::move(texels)), summed_(texels_, threads) {}
-
-std::unique_ptr<ShownPanel> elemental_panel(const Display& display, const Geometry& geometry, const ContentScene& scene,
-                                            int threads, const Job& job) {
-    Quiet quiet(job);
-    const Picture picture = shown_content(display, geometry, scene, threads, quiet).picture;
-    if (!picture.complete) throw Stopped{};
-    return std::make_unique<ShownPanel>(shown_texels(picture.image, display.panel.encoding), threads);
 }
 
 const SummedPanel& Subject::panel(const Job& job) {

@@ -1,9 +1,8 @@
-// What is measured: a display, what it shows, and how finely. Floor 3.
+// What is measured: a display, what it shows, and how finely. Floor 3, public as a part of measure.h.
 #pragma once
 #include "base/job.h"
 #include "content/content.h"
 #include "display/display.h"
-#include "engine/estimator/summed_panel.h"
 #include "engine/render.h"
 #include "geometry/geometry.h"
 
@@ -28,16 +27,7 @@ struct AnalysisOptions {
 /// Thrown where the caller cancels the work; nothing of the current measure is kept.
 struct Stopped {};
 
-/// A panel image with its tables.
-class ShownPanel {
-  public:
-    ShownPanel(Texels, int threads);
-    const SummedPanel& summed() const { return summed_; }
-
-  private:
-    Texels texels_;
-    SummedPanel summed_;
-};
+class ShownPanel;  // elemental_panel.h
 
 class Subject {
   public:
@@ -76,8 +66,5 @@ class Subject {
     std::shared_ptr<const ShownPanel> shown_;
     std::optional<double> white_field_;
 };
-
-/// The elemental images of a scene as the display's panel shows them. Throws Stopped.
-std::unique_ptr<ShownPanel> elemental_panel(const Display&, const Geometry&, const ContentScene&, int threads, const Job&);
 
 }  // namespace lfdsim

@@ -5,6 +5,7 @@
 #include "base/constants.h"
 #include "content/pickup/shown_points.h"
 #include "geometry/dark_bands.h"
+#include "geometry/resolve.h"
 #include "geometry/sharp_range.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+#include "analysis/core/figure_json.h"
 #include "analysis/crosstalk/crosstalk_eyes.h"
 #include "analysis/fov/thresholds.h"
 

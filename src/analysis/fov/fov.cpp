@@ -1,5 +1,8 @@
 #include "analysis/fov/fov.h"
 
+#include "analysis/core/elemental_panel.h"
+#include "analysis/core/estimate.h"
+#include "analysis/core/figure_json.h"
 #include "analysis/fov/fov_views.h"
 #include "base/constants.h"
 

@@ -1,6 +1,7 @@
 #include "analysis/moire/moire.h"
 
 #include "analysis/core/channel_pixels.h"
+#include "analysis/core/figure_json.h"
 #include "analysis/moire/eye_filter.h"
 #include "base/constants.h"
 #include "geometry/subpixels.h"

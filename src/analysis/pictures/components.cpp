@@ -1,5 +1,7 @@
 #include "analysis/pictures/components.h"
 
+#include "analysis/core/elemental_panel.h"
+#include "analysis/core/figure_json.h"
 #include "analysis/pictures/shown_content.h"
 #include "analysis/pictures/views.h"
 #include "display/keys.h"

@@ -1,5 +1,7 @@
 #include "analysis/resolution/dof.h"
 
+#include "analysis/core/elemental_panel.h"
+#include "analysis/core/figure_json.h"
 #include "analysis/fov/thresholds.h"
 #include "analysis/pictures/views.h"
 #include "analysis/resolution/dof_depths.h"

@@ -1,5 +1,6 @@
 #include "analysis/resolution/edge_plane.h"
 
+#include "analysis/core/elemental_panel.h"
 #include "base/constants.h"
 
 #include <algorithm>

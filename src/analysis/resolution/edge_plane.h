@@ -1,5 +1,6 @@
 // One plane of slanted edges that a display shows, seen from several angles. Floor 3.
 #pragma once
+#include "analysis/core/elemental_panel.h"
 #include "analysis/core/subject.h"
 #include "analysis/resolution/edge_view.h"
 #include "analysis/resolution/mtf_curves.h"

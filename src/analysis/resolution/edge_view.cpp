@@ -1,5 +1,6 @@
 #include "analysis/resolution/edge_view.h"
 
+#include "analysis/core/elemental_panel.h"
 #include "base/constants.h"
 #include "content/pickup/pickup.h"
 #include "content/pickup/shown_points.h"

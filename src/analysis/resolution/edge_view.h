@@ -1,5 +1,6 @@
 // Slanted edges that a display shows at a depth, and pictures of them from several angles. Floor 3.
 #pragma once
+#include "analysis/core/elemental_panel.h"
 #include "analysis/core/subject.h"
 #include "analysis/resolution/slanted_edge.h"
 

@@ -1,6 +1,7 @@
 #include "analysis/resolution/fringes.h"
 
 #include "analysis/core/channel_pixels.h"
+#include "analysis/core/elemental_panel.h"
 #include "analysis/pictures/views.h"
 #include "base/constants.h"
 #include "checks/depth_words.h"

@@ -1,6 +1,8 @@
 #include "analysis/resolution/mtf.h"
 
 #include "analysis/core/channel_pixels.h"
+#include "analysis/core/elemental_panel.h"
+#include "analysis/core/figure_json.h"
 #include "analysis/resolution/edge_plane.h"
 #include "analysis/resolution/fringes.h"
 #include "analysis/resolution/mtf_colour.h"

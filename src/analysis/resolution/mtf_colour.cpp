@@ -1,5 +1,6 @@
 #include "analysis/resolution/mtf_colour.h"
 
+#include "analysis/core/figure_json.h"
 #include "base/constants.h"
 #include "display/colour.h"
 

@@ -1,5 +1,6 @@
 #include "analysis/spots/spot.h"
 
+#include "analysis/core/figure_json.h"
 #include "analysis/spots/lens_spots.h"
 #include "analysis/spots/spot_colour.h"
 #include "base/constants.h"

@@ -1,6 +1,7 @@
 #include "analysis/spots/spot_colour.h"
 
 #include "analysis/core/estimate.h"
+#include "analysis/core/figure_json.h"
 #include "base/constants.h"
 #include "display/colour.h"
 

@@ -1,7 +1,10 @@
 #include "analysis/spots/spot_depth.h"
 
+#include "analysis/core/estimate.h"
+#include "analysis/core/figure_json.h"
 #include "base/constants.h"
 #include "geometry/lens_misalignment.h"
+#include "geometry/resolve.h"
 #include "geometry/sharp_range.h"
 
 #include <fmt/format.h>

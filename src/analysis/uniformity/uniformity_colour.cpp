@@ -1,5 +1,6 @@
 #include "analysis/uniformity/uniformity_colour.h"
 
+#include "analysis/core/figure_json.h"
 #include "base/constants.h"
 
 #include <fmt/format.h>

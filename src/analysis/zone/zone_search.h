@@ -1,5 +1,6 @@
 // From where all of the screen shows its own elemental images, by lines of sight from viewers about the zone. Floor 3.
 #pragma once
+#include "analysis/core/estimate.h"
 #include "analysis/core/eye_rays.h"
 #include "analysis/core/parallel.h"
 #include "analysis/fov/thresholds.h"

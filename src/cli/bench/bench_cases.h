@@ -1,7 +1,7 @@
 // What `lfdsim bench` renders: one display, and what each duty of the renderer changes in it. Floor 5.
 #pragma once
 #include "display/display.h"
-#include "image/compare/compare.h"
+#include "image/image.h"
 #include "image/texels.h"
 
 #include <span>

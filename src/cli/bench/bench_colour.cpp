@@ -1,6 +1,7 @@
 #include "cli/bench/bench.h"
 #include "cli/bench/bench_cases.h"
 #include "display/colour.h"
+#include "engine/estimator/panel_planes.h"
 #include "engine/render.h"
 
 #include <fmt/format.h>
@@ -82,7 +83,7 @@ void compare(const ColourCase& pair, const Duty& estimator, Bench& bench) {
     const double error = pair.error(displays[0], displays[1], crop, bench);
     const Texels texels = noise_panel(displays[0]);
     const SummedPanel panel(texels, bench.settings.threads);
-    for (const Display& d : displays) panel.planes(panel_reading(d));  // made before anything is timed
+    for (const Display& d : displays) planes_of(panel, panel_reading(d));  // made before anything is timed
     std::vector<Case> cases;
     for (const Display& d : displays)
         cases.push_back(rendering(pair.name, d, panel, {bench.settings.threads, bench.settings.kernel, crop}));

@@ -4,6 +4,7 @@
 #include "cli/options/panel_source.h"
 #include "cli/program/arguments.h"
 #include "engine/devices/memory.h"
+#include "engine/estimator/panel_planes.h"
 #include "engine/render.h"
 #include "files/description/display_file.h"
 
@@ -116,7 +117,7 @@ std::vector<Spent> points_of(const View& view, const Image& truth, Bench& bench)
     for (const Contender& e : estimators) {
         Display d = view.display;
         e.choose(d);
-        view.summed.planes(panel_reading(d));
+        planes_of(view.summed, panel_reading(d));
         for (const std::int64_t samples : sample_counts) points.push_back({&e, samples, {}, {}});
     }
     std::vector<Case> cases;

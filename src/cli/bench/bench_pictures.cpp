@@ -2,6 +2,7 @@
 #include "cli/bench/bench_cases.h"
 #include "cli/output/temporary_folder.h"
 #include "content/content.h"
+#include "image/compare/compare.h"
 #include "image/formats/image_file.h"
 
 #include <filesystem>

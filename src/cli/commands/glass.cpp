@@ -1,3 +1,4 @@
+#include "analysis/core/figure_json.h"
 #include "base/counted.h"
 #include "cli/output/output.h"
 #include "cli/program/commands.h"

@@ -4,7 +4,7 @@
 #include "cli/program/command.h"
 #include "cli/program/progress.h"
 #include "display/display.h"
-#include "image/compare/compare.h"
+#include "image/image.h"
 
 #include <cstdint>
 #include <optional>

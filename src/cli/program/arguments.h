@@ -2,7 +2,7 @@
 #pragma once
 #include "base/input_error.h"
 #include "cli/program/command.h"
-#include "image/compare/compare.h"
+#include "image/image.h"
 
 #include <array>
 #include <cstdint>

@@ -4,6 +4,7 @@
 #include "content/models/turn.h"
 #include "display/keys.h"
 #include "geometry/geometry.h"
+#include "geometry/resolve.h"
 #include "image/formats/encoding.h"
 
 #include <fmt/format.h>

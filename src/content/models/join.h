@@ -2,6 +2,7 @@
 #pragma once
 #include "content/content.h"
 #include "content/models/model.h"
+#include "geometry/resolve.h"
 
 namespace lfdsim {
 

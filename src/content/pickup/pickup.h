@@ -3,6 +3,7 @@
 #include "content/pickup/moved_lenses.h"
 #include "display/display.h"
 #include "geometry/geometry.h"
+#include "geometry/resolve.h"
 #include "optics/lattice.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "engine/devices/gpu.h"
 
 #include "base/input_error.h"
+#include "engine/estimator/panel_planes.h"
 
 #include <fmt/format.h>
 #include <atomic>
@@ -135,7 +136,7 @@ std::vector<std::string> gpus_given_up() {
 std::optional<GpuRun> render_on_gpu(const ChosenDevice& device, const SummedPanel* summed,
                                     const std::vector<optics::SummedImage>& planes, Work& work, Job& job) {
     return on_gpu(device, [&](wide::Queue& queue) {
-        GpuPanels own, &panels = summed ? summed->on_gpus(planes) : own;
+        GpuPanels own, &panels = summed ? gpu_panels_of(*summed, planes) : own;
         const wide::DevicePanel& panel = panel_on(queue, *device.gpu, panels, planes, wide::picture_bytes(work.tile));
         const double before = queue.seconds();
         const Done done = wide::render(queue, panel, work.tile, work.target_error, work.result.error.rgb.data(), job);
@@ -155,7 +156,7 @@ std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Su
             GpuPhotographs& photographs = expected.on_gpus();
             const std::lock_guard lock(photographs.mutex);
             const std::size_t sent = photographs.copies.contains(*device.gpu) ? 0 : wide::Photograph::bytes(image);
-            panel = &panel_on(queue, *device.gpu, summed.on_gpus(planes), planes,
+            panel = &panel_on(queue, *device.gpu, gpu_panels_of(summed, planes), planes,
                               wide::picture_bytes(work.tile) + wide::Comparison::bytes(image.width, image.height) + sent);
             photograph = &copy_on(photographs, *device.gpu, [&] { return wide::Photograph(queue, image); });
         }

@@ -1,6 +1,7 @@
 #include "engine/estimator/summed_panel.h"
 
 #include "engine/devices/gpu.h"
+#include "engine/estimator/panel_planes.h"
 #include "engine/scene/traced_display.h"
 #include "image/formats/huge_pages.h"
 #include "optics/traced_display.h"
@@ -139,16 +140,18 @@ SummedPanel::SummedPanel(const Texels& panel, int threads) : parts_(std::make_un
     parts_->arena.initialize(threads > 0 ? threads : tbb::task_arena::automatic);
 }
 
-const std::vector<SummedImage>& SummedPanel::planes(const PanelReading& reading) const {
-    const std::lock_guard lock(parts_->mutex);
-    SummedPlanes& wanted = parts_->of[reading];
-    if (wanted.all.empty()) wanted = parts_->made(reading);
+const std::vector<SummedImage>& planes_of(const SummedPanel& panel, const PanelReading& reading) {
+    SummedPanel::Parts& parts = panel.parts();
+    const std::lock_guard lock(parts.mutex);
+    SummedPlanes& wanted = parts.of[reading];
+    if (wanted.all.empty()) wanted = parts.made(reading);
     return wanted.all;
 }
 
-GpuPanels& SummedPanel::on_gpus(const std::vector<SummedImage>& planes) const {
-    const std::lock_guard lock(parts_->mutex);
-    for (const auto& [reading, of] : parts_->of)
+GpuPanels& gpu_panels_of(const SummedPanel& panel, const std::vector<SummedImage>& planes) {
+    SummedPanel::Parts& parts = panel.parts();
+    const std::lock_guard lock(parts.mutex);
+    for (const auto& [reading, of] : parts.of)
         if (&of.all == &planes) return *of.on_gpus;
     throw std::logic_error("planes of another panel");
 }

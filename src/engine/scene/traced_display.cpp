@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "engine/estimator/limits.h"
 #include "geometry/camera.h"
+#include "geometry/resolve.h"
 #include "optics/direction_numbers.h"
 
 #include "engine/devices/kernel.h"
@@ -21,6 +22,26 @@ namespace lfdsim {
 namespace {
 
 using optics::Shape;
+
+/// A lattice with each of its numbers rounded to S.
+template <class S>
+Lattice<S> rounded(const Lattice<double>& from) {
+    const auto both = [](const double(&of)[2], S(&to)[2]) {
+        for (int k = 0; k < 2; ++k) to[k] = S(of[k]);
+    };
+    Lattice<S> to{};
+    both(from.pitch, to.pitch);
+    both(from.per_pitch, to.per_pitch);
+    both(from.half_pitch, to.half_pitch);
+    both(from.count, to.count);
+    both(from.offset, to.offset);
+    to.cos_turn = S(from.cos_turn);
+    to.sin_turn = S(from.sin_turn);
+    to.staggered = from.staggered;
+    to.hexagonal = from.hexagonal;
+    to.strips = from.strips;
+    return to;
+}
 
 template <class S>
 optics::Interface<S> interface(double above, double below) {

@@ -3,6 +3,7 @@
 #include "base/input_error.h"
 #include "display/colour.h"
 #include "engine/devices/gpu.h"
+#include "engine/estimator/panel_planes.h"
 #include "engine/scene/traced_display.h"
 #include "engine/scene/work.h"
 
@@ -23,7 +24,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     if (options.target_error) throw std::invalid_argument("views are compared without a target error");
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-    const std::vector<optics::SummedImage>& planes = panel.planes(panel_reading(display));
+    const std::vector<optics::SummedImage>& planes = planes_of(panel, panel_reading(display));
     const Work work(by_points(display), geometry, planes, options);
     const Image& photograph = expected.photograph();
     const int width = work.tile.x1 - work.tile.x0, height = work.tile.y1 - work.tile.y0;

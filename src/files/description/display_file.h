@@ -1,4 +1,4 @@
-// Display descriptions (TOML) in and out. Floor 2.
+// Display descriptions (TOML) in and out. Floor 2, public.
 #pragma once
 #include "base/input_error.h"
 #include "display/display.h"

@@ -1,6 +1,7 @@
 #include "image/compare/compare.h"
 
 #include "base/input_error.h"
+#include "image/compare/region.h"
 #include "image/compare/ssim.h"
 
 #include <fmt/format.h>

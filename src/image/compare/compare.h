@@ -1,6 +1,5 @@
-// Measures of how alike two pictures are. Floor 0.
+// Measures of how alike two pictures are. Floor 0, public.
 #pragma once
-#include "image/compare/region.h"
 #include "image/image.h"
 
 #include <optional>

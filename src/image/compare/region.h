@@ -1,15 +1,13 @@
 // Parts of a picture. Floor 0.
 #pragma once
+#include "image/image.h"
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace lfdsim {
-
-struct Rect {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // columns x0 .. x1-1, rows y0 .. y1-1
-};
 
 /// Pixels of a picture: columns [from, to) of each row from `top` on. Empty rows have from >= to.
 struct Region {

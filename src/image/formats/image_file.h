@@ -1,4 +1,4 @@
-// Pictures in files: PNG (8 or 16 bit), EXR, NPY, PFM, JPEG in; PNG, EXR, NPY out. Floor 0.
+// Pictures in files: PNG (8 or 16 bit), EXR, NPY, PFM, JPEG in; PNG, EXR, NPY out. Floor 0, public.
 #pragma once
 #include "base/input_error.h"
 #include "base/job.h"

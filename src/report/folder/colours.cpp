@@ -1,5 +1,6 @@
 #include "report/folder/colours.h"
 
+#include "analysis/core/figure_json.h"
 #include "display/colour.h"
 #include "geometry/geometry.h"
 

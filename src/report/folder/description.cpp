@@ -1,5 +1,6 @@
 #include "report/folder/description.h"
 
+#include "analysis/core/figure_json.h"
 #include "base/constants.h"
 #include "display/keys.h"
 #include "geometry/lattice.h"

@@ -1,5 +1,6 @@
 #include "report/folder/folder.h"
 
+#include "analysis/core/figure_json.h"
 #include "base/printable.h"
 #include "image/formats/apng.h"
 #include "image/formats/file.h"

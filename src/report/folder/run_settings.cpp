@@ -1,5 +1,6 @@
 #include "report/folder/run_settings.h"
 
+#include "analysis/core/figure_json.h"
 #include "files/description/display_file.h"
 
 #include <fmt/chrono.h>

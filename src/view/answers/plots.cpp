@@ -1,5 +1,6 @@
 #include "view/answers/plots.h"
 
+#include "analysis/core/elemental_panel.h"
 #include "analysis/core/eye_rays.h"
 #include "analysis/fov/fov.h"
 #include "analysis/pictures/views.h"

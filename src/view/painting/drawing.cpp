@@ -1,5 +1,6 @@
 #include "view/painting/drawing.h"
 
+#include "analysis/core/elemental_panel.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/memory.h"
 #include "engine/render.h"

@@ -1,5 +1,6 @@
 // Renders and encodes the pictures of one state. Floor 5. For one visitor, on one thread.
 #pragma once
+#include "analysis/core/elemental_panel.h"
 #include "view/answers/likeness.h"
 #include "view/painting/eye_displays.h"
 #include "view/painting/frame.h"

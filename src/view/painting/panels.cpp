@@ -1,10 +1,12 @@
 #include "view/painting/panels.h"
 
+#include "analysis/core/elemental_panel.h"
 #include "analysis/pictures/shown_content.h"
 #include "base/free_memory.h"
 #include "content/models/memory.h"
 #include "engine/devices/memory.h"
 #include "geometry/lens_misalignment.h"
+#include "geometry/resolve.h"
 #include "geometry/subpixels.h"
 #include "image/formats/image_file.h"
 

@@ -1,5 +1,6 @@
 // Light of panels: elemental images, patterns, files. Floor 5. Shared by all visitors; all calls from any thread.
 #pragma once
+#include "analysis/core/elemental_panel.h"
 #include "analysis/core/subject.h"
 #include "engine/devices/memory.h"
 #include "view/answers/library.h"
