@@ -156,11 +156,11 @@ struct Camera {
 };
 
 /// The light in which content is shaded.
-struct Light {
+struct ContentLight {
     Vec3d direction{0.3, 0.5, 0.81};  // towards it; only the direction counts
     double strength = 0.8;            // added to the ambient term where a surface faces it
     double ambient = 0.2;
-    bool operator==(const Light&) const = default;
+    bool operator==(const ContentLight&) const = default;
 };
 
 /// One thing of a scene: a mesh, or a picture on a rectangle.
@@ -210,7 +210,7 @@ struct Content {
     Inverse inverse;
     ContentSampling sampling = ContentSampling::subpixel;
     MadeFor made_for = MadeFor::description;
-    Light light;
+    ContentLight light;
     std::vector<SceneObject> objects;  // in place of the model; depth, height, tilt and yaw are then of them all together
     bool operator==(const Content&) const = default;
 };

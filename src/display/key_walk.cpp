@@ -48,17 +48,17 @@ void each_key(const Visit& visit) {
 /// The value that a key of a struct fills, and the one that a fresh struct has; nothing if it is a table. What a walk does with
 /// them is compiled once for each struct, not for each type that a value may have.
 template <class Ref>
-struct Value {
+struct ValueAndDefault {
     Ref value;
     ConstValueRef fresh;
 };
 template <class Ref, class T, class Struct = std::remove_const_t<T>>
-std::optional<Value<Ref>> value_of(T& in, const Key<Struct>& key) {
+std::optional<ValueAndDefault<Ref>> value_of(T& in, const Key<Struct>& key) {
     return std::visit(
-        [&](auto member) -> std::optional<Value<Ref>> {
+        [&](auto member) -> std::optional<ValueAndDefault<Ref>> {
             constexpr PartKind is = part_kind<decltype(in.*member)>;
             if constexpr (is == PartKind::value || is == PartKind::kinds)
-                return Value<Ref>{&(in.*member), &(fresh_one<Struct>().*member)};
+                return ValueAndDefault<Ref>{&(in.*member), &(fresh_one<Struct>().*member)};
             else
                 return {};
         },

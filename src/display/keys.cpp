@@ -193,11 +193,12 @@ constexpr Key<Content> content_keys[] = {
     {"object", &Content::objects, no_range, false, ""},
 };
 
-constexpr Key<Light> light_keys[] = {
-    {"direction", &Light::direction, any_length, false,
+constexpr Key<ContentLight> light_keys[] = {
+    {"direction", &ContentLight::direction, any_length, false,
      "Towards the light, which is far away: x to the viewer's right, y up, z to the viewer. Of any length but 0."},
-    {"strength", &Light::strength, Range{0, 100}, false, "What a surface that faces the light adds to the ambient term."},
-    {"ambient", &Light::ambient, Range{0, 100}, false, "Share of its colour that a surface turned away from the light shows."},
+    {"strength", &ContentLight::strength, Range{0, 100}, false, "What a surface that faces the light adds to the ambient term."},
+    {"ambient", &ContentLight::ambient, Range{0, 100}, false,
+     "Share of its colour that a surface turned away from the light shows."},
 };
 
 constexpr std::string_view no_size = "given by another size; exactly one of height_mm, width_mm and unit_mm is required";
@@ -349,8 +350,8 @@ const Table<Content>& table_of<Content>() {
     return table;
 }
 template <>
-const Table<Light>& table_of<Light>() {
-    static constexpr Table<Light> table{
+const Table<ContentLight>& table_of<ContentLight>() {
+    static constexpr Table<ContentLight> table{
         "light", "What lights models: their colour times (ambient + strength x cosine of the angle to the light, if positive).",
         light_keys};
     return table;

@@ -69,7 +69,7 @@ template <>
 struct MemberOf<Content> {
     using Type = std::variant<std::string Content::*, double Content::*, std::int64_t Content::*, std::optional<double> Content::*,
                               ContentSampling Content::*, MadeFor Content::*, PickupKind Content::*, Inverse Content::*,
-                              Light Content::*, std::vector<SceneObject> Content::*>;
+                              ContentLight Content::*, std::vector<SceneObject> Content::*>;
 };
 
 /// What a text in a description is. A text that nothing is said of counts as a file's name, which visitors of the viewer may
@@ -114,7 +114,7 @@ template <> const Table<Diffuser>& table_of<Diffuser>();
 template <> const Table<Camera>& table_of<Camera>();
 template <> const Table<Content>& table_of<Content>();
 template <> const Table<Inverse>& table_of<Inverse>();
-template <> const Table<Light>& table_of<Light>();
+template <> const Table<ContentLight>& table_of<ContentLight>();
 template <> const Table<SceneObject>& table_of<SceneObject>();
 template <> const Table<Render>& table_of<Render>();
 // clang-format on
@@ -124,7 +124,7 @@ inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
 template <class T>
 inline constexpr bool has_table =
     is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole, Surface, LensArray, Errors,
-              Diffuser, Camera, Content, Inverse, Light, SceneObject, Render>;
+              Diffuser, Camera, Content, Inverse, ContentLight, SceneObject, Render>;
 
 /// How a field of a struct is a table within it.
 enum class PartKind { value, table, optional, list, kinds };

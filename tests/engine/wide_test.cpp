@@ -152,7 +152,7 @@ TEST(Wide, LikenessHasTheSameBits) {
         const wide::DevicePanel there(queue, planes_of(summed)[0]);
         const wide::Photograph photograph(queue, expected.photograph());
         const Work work(d, resolve(d), planes_of(summed), options);
-        wide::Comparison comparison(queue, photograph, expected.screen, expected.content);
+        wide::ViewComparison comparison(queue, photograph, expected.screen, expected.content);
         const wide::Buffer<float> seen(queue, view.rgb.size());
         EXPECT_TRUE(wide::render_there(queue, there, work.tile, seen.get(), job).complete);
         const Likeness wide = comparison.with(seen.get(), 1.3f),

@@ -31,7 +31,7 @@ EdgePlane::EdgePlane(const Subject& s, double depth_mm, const Direction& directi
       pitch_mm_(s.display().array.pitch_mm[std::size_t(direction.axis)]),
       bars_(bars_across(direction, s.geometry().vertex_plane_mm + depth_mm)) {}
 
-Eye EdgePlane::eye(double angle_deg) const { return {angle_deg, s_.viewing_distance_mm()}; }
+EdgeEye EdgePlane::eye(double angle_deg) const { return {angle_deg, s_.viewing_distance_mm()}; }
 
 /// The lenses' pitch across the edges as seen in their plane.
 double EdgePlane::pitch_mm() const { return pitch_mm_ * scale_to_plane(s_.geometry(), bars_.z_mm, eye(0)); }
@@ -83,7 +83,7 @@ double EdgePlane::pixel_mm(double most_per_mm) const {
 }
 
 /// Adds the picture that an eye sees. False: there is no edge in it.
-bool EdgePlane::look(EdgeSpread& spread, Eye from, double pixel, MtfCurves& curves) const {
+bool EdgePlane::look(EdgeSpread& spread, EdgeEye from, double pixel, MtfCurves& curves) const {
     const EdgeView view = edge_view(s_.display(), s_.geometry(), bars_, from, pixel);
     if (view.edges.lines.empty()) return false;
     const Image picture = picture_of(view, bars_.upright, panel_->summed(), s_.rendering(), job_),
@@ -114,7 +114,7 @@ void EdgePlane::measure(std::span<MtfCurves> all_curves) {
         show(k);
         any = k < pictures_ / 4;  // small screens may show an edge at some offsets only
         for (std::size_t n = 0; n < curves.size(); ++n) {
-            Eye from = eye(curves[n]->angle_deg);
+            EdgeEye from = eye(curves[n]->angle_deg);
             from.aside_mm = pixel * std::fmod(k * golden, 1);
             any = look(spreads[n], from, pixel, *curves[n]) || any;
         }

@@ -21,13 +21,13 @@ class EdgePlane {
     void measure(std::span<MtfCurves>);
 
   private:
-    Eye eye(double angle_deg) const;
+    EdgeEye eye(double angle_deg) const;
     double pitch_mm() const;
     void set_bars(double blur_mm, double angle_deg);
     void set_pictures(std::span<MtfCurves* const>);
     void show(int picture);
     double pixel_mm(double most_per_mm) const;
-    bool look(EdgeSpread&, Eye, double pixel, MtfCurves&) const;
+    bool look(EdgeSpread&, EdgeEye, double pixel, MtfCurves&) const;
 
     const Subject& s_;
     const SummedPanel& white_;

@@ -42,7 +42,7 @@ ScreenRect screen_middle(const Display& d, const Geometry& g) {
 
 /// The rectangle of the bars' plane that the eye sees through the middle of the screen; not so long that slanted edges would
 /// leave it sideways.
-ScreenRect seen_box(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
+ScreenRect seen_box(const Display& d, const Geometry& g, const Bars& bars, const EdgeEye& eye) {
     const ScreenRect m = screen_middle(d, g);
     const double k = scale_to_plane(g, bars.z_mm, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;
     ScreenRect box = bars.upright ? ScreenRect{x, -y, m.half_a * k, m.half_b * k} : ScreenRect{-y, x, m.half_b * k, m.half_a * k};
@@ -76,7 +76,7 @@ Bars bars_across(const Direction& direction, double z_mm) {
     return {upright, lean, z_mm, 1, 1, 0};
 }
 
-double scale_to_plane(const Geometry& g, double z_mm, const Eye& eye) {
+double scale_to_plane(const Geometry& g, double z_mm, const EdgeEye& eye) {
     return (eye.z_mm() - z_mm) / (eye.z_mm() - g.vertex_plane_mm);
 }
 
@@ -111,15 +111,15 @@ std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& g
     return std::make_unique<ShownPanel>(std::move(texels), threads);
 }
 
-double Eye::x_mm() const { return distance_mm * std::sin(angle_deg * degree) + aside_mm; }
-double Eye::z_mm() const { return distance_mm * std::cos(angle_deg * degree); }
+double EdgeEye::x_mm() const { return distance_mm * std::sin(angle_deg * degree) + aside_mm; }
+double EdgeEye::z_mm() const { return distance_mm * std::cos(angle_deg * degree); }
 
-std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Bars& bars, const Eye& eye) {
+std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Bars& bars, const EdgeEye& eye) {
     const ScreenRect box = seen_box(d, g, bars, eye);
     return {box.half_a, box.half_b};
 }
 
-EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars& bars, const Eye& eye, double pixel_mm) {
+EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars& bars, const EdgeEye& eye, double pixel_mm) {
     EdgeView view{display, {}, {}};
     const double sine = std::sin(bars.lean_deg * degree), cosine = std::cos(bars.lean_deg * degree), tangent = sine / cosine;
     // Point samples: filtered ones average the panel over boxes, which would count as blur. Noise does not bias the mean edge.

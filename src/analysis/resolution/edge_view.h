@@ -44,7 +44,7 @@ std::array<double, 2> across(const Bars&);
 std::unique_ptr<ShownPanel> bars_panel(const Display&, const Geometry&, const std::optional<Bars>&, int threads);
 
 /// The eye that looks at edges: a pinhole at `distance_mm` from the panel's centre, `angle_deg` to the right (within +-80).
-struct Eye {
+struct EdgeEye {
     double angle_deg, distance_mm;
     double aside_mm = 0;  // shift to the right and up, so that the pixels of several pictures look at different places
     double x_mm() const;
@@ -52,7 +52,7 @@ struct Eye {
 };
 
 /// The length in a plane at a height above the panel onto which the eye projects a unit length of the lenses' plane.
-double scale_to_plane(const Geometry&, double z_mm, const Eye&);
+double scale_to_plane(const Geometry&, double z_mm, const EdgeEye&);
 
 /// A view of the edges that fit into the middle of the screen as an eye sees it. Its frame is parallel to the panel, so that the
 /// bars' plane appears at one scale, `pixel_mm` to a pixel.
@@ -62,11 +62,11 @@ struct EdgeView {
     Edges edges;     // in the crop, or in the crop transposed where they are not upright; empty: none fits
     int lenses = 0;  // that the edges cross, all together
 };
-EdgeView edge_view(const Display&, const Geometry&, const Bars&, const Eye&, double pixel_mm);
+EdgeView edge_view(const Display&, const Geometry&, const Bars&, const EdgeEye&, double pixel_mm);
 
 /// Half the width and length of the part of the bars' plane that an eye sees through the screen: across the bars, and along them,
 /// where it is limited so that slanted edges stay within it. 0 or less: nothing is seen.
-std::array<double, 2> seen_half_mm(const Display&, const Geometry&, const Bars&, const Eye&);
+std::array<double, 2> seen_half_mm(const Display&, const Geometry&, const Bars&, const EdgeEye&);
 
 /// The picture of a panel in that view, transposed where the edges are not upright. Throws Stopped.
 Image picture_of(const EdgeView&, bool upright, const SummedPanel& panel, RenderOptions, const Job&);

@@ -33,7 +33,7 @@ Image mean_picture(Display d, const Subject& s, const SummedPanel& panel, const 
 
 /// A display whose frame 16 lenses fill about the point (0, 0, z_mm), for an eye at an angle.
 Display near_view(const Subject& s, double z_mm, double angle_deg) {
-    const Eye eye{angle_deg, s.viewing_distance_mm()};
+    const EdgeEye eye{angle_deg, s.viewing_distance_mm()};
     Display d = seen_by(s.display(), {eye.x_mm(), 0, eye.z_mm()});
     d.camera.target_mm = {0, 0, z_mm};
     d.camera.resolution = {near_columns, near_rows};

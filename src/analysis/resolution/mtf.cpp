@@ -234,7 +234,7 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
 
 void check(const Subject& s, const std::vector<double>& depths, const std::vector<double>& angles) {
     const Geometry& g = s.geometry();
-    const Eye eye{angles.back(), s.viewing_distance_mm()};
+    const EdgeEye eye{angles.back(), s.viewing_distance_mm()};
     const double top = std::max(g.top_z_mm, g.diffuser_z_mm.value_or(g.top_z_mm));
     if (!(eye.z_mm() > top))
         throw InputError("--viewing-distance-mm",
@@ -261,7 +261,7 @@ std::vector<double> mtf_depths_mm(const Subject& s) {
     const Theory& t = s.theory();
     const double from_vertex = s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm,
                  middle = t.central_depth_mm + from_vertex;
-    const Eye eye{mtf_angles_deg(s).back(), s.viewing_distance_mm()};
+    const EdgeEye eye{mtf_angles_deg(s).back(), s.viewing_distance_mm()};
     const double far = 0.75 * (eye.z_mm() - s.geometry().vertex_plane_mm);
     std::vector<double> depths;
     if (!(middle < far && middle > -100 * far)) {
@@ -285,7 +285,7 @@ Result measure_mtf(Subject& s, Job& job) {
     std::vector<SeenInColours> seen;
     for (const double angle : angles) {
         if (job.cancelled()) throw Stopped{};
-        const Eye eye{angle, s.viewing_distance_mm()};
+        const EdgeEye eye{angle, s.viewing_distance_mm()};
         seen.push_back(seen_in_colours(s, {eye.x_mm(), 0, eye.z_mm()}));
     }
     std::vector<MtfCurves> all;

@@ -82,7 +82,7 @@ SeenInColours seen_in_colours(const Subject& s, const Vec3d& eye) {
 MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_mm, double angle_deg, const Direction& direction) {
     constexpr int steps = 160;
     constexpr double most_lost = 0.2;  // of the light, beyond what the screen shows of the plane
-    const Eye eye{angle_deg, s.viewing_distance_mm()};
+    const EdgeEye eye{angle_deg, s.viewing_distance_mm()};
     const Bars plane = bars_across(direction, s.geometry().vertex_plane_mm + depth_mm);
     using PixelPositions = SeenThroughLenses::PixelPositions;
     const LineSpread spread = seen.luminance.spread(plane.z_mm, direction, PixelPositions::as_described);

@@ -76,7 +76,7 @@ std::optional<double> seconds_to(double rmse, const Contender& estimator, const 
 }
 
 /// A display that shows something, and the part of the frame that is looked at.
-struct View {
+struct BenchView {
     Display display;
     std::string content;
     Texels panel;
@@ -101,7 +101,7 @@ struct Reference {
     double rmse;           // its own error, estimated
 };
 
-std::optional<Reference> reference_of(const View& view, Bench& bench) {
+std::optional<Reference> reference_of(const BenchView& view, Bench& bench) {
     const Rendering a = view.rendered(bench, brute_force, reference_samples, view.display.render.seed + 1, bench.job()),
                     b = view.rendered(bench, brute_force, reference_samples, view.display.render.seed + 2, bench.job());
     if (!a.complete || !b.complete) return {};
@@ -112,7 +112,7 @@ std::optional<Reference> reference_of(const View& view, Bench& bench) {
 }
 
 // Seconds are those of the whole call, so that what an estimator prepares is not left out, but for the panel's tables.
-std::vector<Spent> points_of(const View& view, const Image& truth, Bench& bench) {
+std::vector<Spent> points_of(const BenchView& view, const Image& truth, Bench& bench) {
     std::vector<Spent> points;
     for (const Contender& e : estimators) {
         Display d = view.display;
@@ -135,7 +135,7 @@ std::vector<Spent> points_of(const View& view, const Image& truth, Bench& bench)
     return points;
 }
 
-void report(const View& view, const Reference& reference, const std::vector<Spent>& points, Bench& bench) {
+void report(const BenchView& view, const Reference& reference, const std::vector<Spent>& points, Bench& bench) {
     const auto wanted = std::find_if(points.begin(), points.end(),
                                      [](const Spent& p) { return p.estimator == &papers && p.samples == papers_samples; });
     Json rows = Json::array();
@@ -173,7 +173,7 @@ void report(const View& view, const Reference& reference, const std::vector<Spen
     bench.row("estimators", std::move(all), text);
 }
 
-void compare_estimators(const View& view, Bench& bench) {
+void compare_estimators(const BenchView& view, Bench& bench) {
     bench.heading("Error against time: " + view.name());
     const std::optional<Reference> reference = reference_of(view, bench);
     if (!reference) return;

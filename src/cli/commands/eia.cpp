@@ -63,7 +63,7 @@ void run(const EiaArguments& args) {
     Json more = Json::object();
     Progress progress(args.work.progress());
     if (views.given()) {
-        ViewsOption::Made made = views.make(display, geometry, args.work.threads(), progress);
+        ViewsOption::PanelOfViews made = views.make(display, geometry, args.work.threads(), progress);
         picture = std::move(made.field.picture);
         of_views = std::move(made.text);
         more["views"] = std::move(made.json);
@@ -90,7 +90,7 @@ void run(const EiaArguments& args) {
     Metadata about{{"seconds", fmt::format("{:.3f}", picture.seconds)}};
     if (args.pattern.given()) about[pattern_mark] = args.pattern.name();
     args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress);
-    print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
+    print_made(PictureMade{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
                args.work.json(), of_views, more);
 }
 

@@ -157,7 +157,7 @@ void run(const ExportArguments& args) {
     for (const std::string file : files) refuse_input(folder / file);
     const FolderLock lock(folder);
     keep_apart(folder, files, description, args.replace);
-    PanelLight panel =
+    PanelTexels panel =
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     panel.texels = light_of_channel(std::move(panel.texels), options.channel);
     if (fine.times > 1) panel.texels = fine_image(fine, display.panel, panel.texels);

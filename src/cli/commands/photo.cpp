@@ -49,7 +49,7 @@ void run(const PhotoArguments& args) {
     const Picture picture = reference_photograph(display, geometry, scene, args.work.threads(), crop, progress);
     args.output.write(picture.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
                       picture.complete, progress);
-    print_made(Made{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
+    print_made(PictureMade{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
                args.work.json());
 }
 

@@ -47,9 +47,9 @@ struct RenderArguments {
 };
 
 void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
-                   const std::function<PanelLight()>& light, Progress& progress) {
+                   const std::function<PanelTexels()>& light, Progress& progress) {
     const Json shown = shown_stamp(args.panel_image, args.pattern, display);
-    PanelLight panel;
+    PanelTexels panel;
     const auto texels = [&]() -> const Texels& {
         panel = light();
         return panel.texels;
@@ -58,8 +58,8 @@ void render_frames(const RenderArguments& args, const Display& display, const Ca
     const auto [columns, rows] = display.camera.resolution;
     made.more.update({{"frames", made.frames}, {"rendered", made.rendered}});
     made.more.update(panel.made);
-    print_made(Made{args.output.path(), options.crop ? options.crop->x1 - options.crop->x0 : int(columns),
-                    options.crop ? options.crop->y1 - options.crop->y0 : int(rows), "samples", made.samples, made.seconds},
+    print_made(PictureMade{args.output.path(), options.crop ? options.crop->x1 - options.crop->x0 : int(columns),
+                           options.crop ? options.crop->y1 - options.crop->y0 : int(rows), "samples", made.samples, made.seconds},
                args.work.json(),
                fmt::format("{}{}; {}, {} of them made before", made.how.empty() ? "" : ", ", made.how,
                            counted(made.frames, "frame"), made.frames - made.rendered),
@@ -113,7 +113,7 @@ void run(const RenderArguments& args) {
     };
     const RenderOptions options{args.work.threads(), args.kernel.text(), crop, target, device};
     if (path) return render_frames(args, display, *path, options, light, progress);
-    const PanelLight panel = light();
+    const PanelTexels panel = light();
     Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
                        : render(display, geometry, panel.texels, options, progress);
     const std::optional<double> exposure = args.exposure.factor(display, geometry, options, progress);
@@ -133,7 +133,7 @@ void run(const RenderArguments& args) {
     args.output.write(r.image, Encoding::srgb, display, std::move(facts.about), r.complete, progress, std::move(facts.layers));
 
     facts.more.update(panel.made);
-    print_made(Made{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
+    print_made(PictureMade{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
                ", " + how_made(r) + (lens ? "; " + args.lens_mesh.text(*lens) : ""), facts.more);
 }
 

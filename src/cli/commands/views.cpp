@@ -220,7 +220,7 @@ class ViewsMaker {
     const Target& target_;
     const std::string device_;
     std::optional<ContentScene> scene_;
-    PanelLight light_;
+    PanelTexels light_;
     std::optional<SummedPanel> panel_;
 };
 
@@ -326,8 +326,8 @@ void run(const ViewsArguments& args) {
                                       : make_folder(maker, args, display, grid, target, folder, progress);
     Json more{{"of", args.of_what.text()}, {"views", grid_json(grid)}};
     more.update(maker.more());
-    print_made(Made{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays", made.rays,
-                    made.seconds},
+    print_made(PictureMade{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays",
+                           made.rays, made.seconds},
                args.work.json(), "; " + grid_text(grid), more);
 }
 

@@ -90,7 +90,8 @@ void ViewsOption::check() {
             if (!file.empty()) remember_input("a file of the views", file);
 }
 
-ViewsOption::Made ViewsOption::make(const Display& display, const Geometry& geometry, int threads, Progress& progress) const {
+ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geometry& geometry, int threads,
+                                            Progress& progress) const {
     std::optional<ReadViews> views = read_views(source_, wish_, views_place(display, geometry), progress);
     progress.end();
     if (!views) end_interrupted("");
@@ -106,7 +107,7 @@ ViewsOption::Made ViewsOption::make(const Display& display, const Geometry& geom
             source_.name);
     const ViewGrid& grid = views->field.grid();
     const bool inverse = display.content.pickup == PickupKind::inverse;
-    Made made{{}, "", grid_json(grid)};
+    PanelOfViews made{{}, "", grid_json(grid)};
     if (inverse) {
         const std::vector<EyeBox> eyes = inverse_eyes(display, geometry, threads, progress);
         if (eyes.empty()) end_interrupted("");

@@ -47,7 +47,7 @@ class ViewsOption {
     bool given() const { return views_.given(); }
     /// Finds out what views there are; to be called before long work. No output may replace any of it. Throws InputError.
     void check();
-    struct Made {
+    struct PanelOfViews {
         FieldPicture field;
         std::string text;  // of what it was made
         Json json;
@@ -55,7 +55,7 @@ class ViewsOption {
     };
     /// Reads the views and makes elemental images of them; warns of what is wrong with their order. Throws InputError, and
     /// Interrupted where a signal ends the reading.
-    Made make(const Display&, const Geometry&, int threads, Progress&) const;
+    PanelOfViews make(const Display&, const Geometry&, int threads, Progress&) const;
 
   private:
     Command command_;

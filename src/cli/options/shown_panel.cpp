@@ -6,8 +6,8 @@
 
 namespace lfdsim::cli {
 
-PanelLight shown_panel(const PanelImageOption& image, const PatternOption& shape, const Display& display, const Geometry& geometry,
-                       const PatternOptions& pattern_options, int threads, Progress& progress) {
+PanelTexels shown_panel(const PanelImageOption& image, const PatternOption& shape, const Display& display, const Geometry& geometry,
+                        const PatternOptions& pattern_options, int threads, Progress& progress) {
     if (image.given()) {
         PanelImageOption::Read panel = image.read(display, progress);
         return {std::move(panel.texels), {{"panel_image", {{"incomplete", panel.incomplete}}}}};

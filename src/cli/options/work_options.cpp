@@ -31,7 +31,7 @@ std::string DeviceOption::read() const {
     return device_.text();
 }
 
-void print_made(const Made& made, bool json, const std::string& more_text, const Json& more) {
+void print_made(const PictureMade& made, bool json, const std::string& more_text, const Json& more) {
     // Time of tracing alone: files and start are the same for all kernels.
     const double rate = made.seconds > 0 ? double(made.count) / made.seconds : 0;
     if (json) {

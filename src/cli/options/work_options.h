@@ -60,7 +60,7 @@ class DeviceOption {
 };
 
 /// What a command has made.
-struct Made {
+struct PictureMade {
     std::string path;
     int width, height;
     const char* unit;  // what was traced: "rays", "samples"
@@ -69,6 +69,6 @@ struct Made {
 };
 
 /// Prints it as one line, with `more` behind it, or as JSON with the keys of `more` behind it.
-void print_made(const Made&, bool json, const std::string& more_text = {}, const Json& more = Json::object());
+void print_made(const PictureMade&, bool json, const std::string& more_text = {}, const Json& more = Json::object());
 
 }  // namespace lfdsim::cli

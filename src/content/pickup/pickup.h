@@ -24,13 +24,13 @@ struct NodalLine {
 class Pickup {
   public:
     /// The pick-up of elemental images made for a display, `g` its resolve().
-    Pickup(const Display& d, const Geometry& g) : Pickup(d, Meant{meant_geometry(d, g)}) { moved_ = moved_lenses(d, g); }
+    Pickup(const Display& d, const Geometry& g) : Pickup(d, IntendedGeometry{meant_geometry(d, g)}) { moved_ = moved_lenses(d, g); }
 
   private:
-    struct Meant {
+    struct IntendedGeometry {
         const Geometry g;
     };
-    Pickup(const Display& d, const Meant& meant)
+    Pickup(const Display& d, const IntendedGeometry& meant)
         : lattice_(meant.g.lattice),
           viewer_(d.content.viewing_distance_mm),
           top_z_(meant.g.vertex_plane_mm),

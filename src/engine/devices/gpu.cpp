@@ -157,10 +157,10 @@ std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Su
             const std::lock_guard lock(photographs.mutex);
             const std::size_t sent = photographs.copies.contains(*device.gpu) ? 0 : wide::Photograph::bytes(image);
             panel = &panel_on(queue, *device.gpu, gpu_panels_of(summed, planes), planes,
-                              wide::picture_bytes(work.tile) + wide::Comparison::bytes(image.width, image.height) + sent);
+                              wide::picture_bytes(work.tile) + wide::ViewComparison::bytes(image.width, image.height) + sent);
             photograph = &copy_on(photographs, *device.gpu, [&] { return wide::Photograph(queue, image); });
         }
-        wide::Comparison comparison(queue, *photograph, expected.screen, expected.content);
+        wide::ViewComparison comparison(queue, *photograph, expected.screen, expected.content);
         const wide::Buffer<float> view(queue, image.rgb.size());
         const Done done = wide::render_there(queue, *panel, work.tile, view.get(), job);
         GpuComparison result{{}, {}};

@@ -45,13 +45,14 @@ Photograph::Photograph(Queue& queue, const Image& photograph)
 
 std::size_t Photograph::bytes(const Image& photograph) { return pixels_of(photograph) * 5 * sizeof(float); }
 
-std::size_t Comparison::bytes(int width, int height) {
+std::size_t ViewComparison::bytes(int width, int height) {
     const std::size_t w = std::size_t(width), h = std::size_t(height);
     return w * h * (sizeof(float) + sizeof(double)) + w * rows_at_once * moments * sizeof(double) +
            likeness_sums * h * (column_groups + 1) * sizeof(double);
 }
 
-Comparison::Comparison(Queue& queue, const Photograph& photograph, const Region& screen, const Region& content) : queue_(queue) {
+ViewComparison::ViewComparison(Queue& queue, const Photograph& photograph, const Region& screen, const Region& content)
+    : queue_(queue) {
     const int width = photograph.width, height = photograph.height;
     std::vector<Region::Row> columns;
     const Region* const regions[] = {&screen, &content};
@@ -84,7 +85,7 @@ Comparison::Comparison(Queue& queue, const Photograph& photograph, const Region&
     frame_.sums = sums_.get();
 }
 
-Likeness Comparison::with(const float* view, float gain) {
+Likeness ViewComparison::with(const float* view, float gain) {
     const std::int64_t width = frame_.width, height = frame_.height;
     LikenessFrame frame = frame_;
     frame.picture = view;

@@ -19,9 +19,9 @@ struct Photograph {
 
 /// Compares a view with a photograph as image/compare/likeness.h does. To be made before the view is rendered: it waits for all
 /// earlier work. Both functions throw DeviceError.
-class Comparison {
+class ViewComparison {
   public:
-    Comparison(Queue&, const Photograph&, const Region& screen, const Region& content);
+    ViewComparison(Queue&, const Photograph&, const Region& screen, const Region& content);
     static std::size_t bytes(int width, int height);
 
     /// `view`: light in the machine's memory, 3 floats a pixel, of the photograph's size.

@@ -68,9 +68,9 @@ void luma_of_row(const Image& image, int row, int x0, int x1, double* to) {
 using WindowMoments = std::array<std::vector<double>, moments>;
 
 /// The eleven rows of moments that a window covers, moved down the picture row by row.
-class Rows {
+class WindowRows {
   public:
-    Rows(const Image& a, const Image& b, Rect box) : a_(a), b_(b), box_(box), columns_(std::size_t(box.x1 - box.x0)) {
+    WindowRows(const Image& a, const Image& b, Rect box) : a_(a), b_(b), box_(box), columns_(std::size_t(box.x1 - box.x0)) {
         for (WindowMoments& row : rows_)
             for (auto& moment : row) moment.resize(columns_);
         for (auto& moment : down_) moment.resize(columns_);
@@ -133,7 +133,7 @@ std::vector<double> ssim(const Image& a, const Image& b, std::span<const Region>
     constexpr int band_rows = 64;
     tbb::parallel_for(0, (std::max(box.y1 - box.y0, 0) + band_rows - 1) / band_rows, [&](int band) {
         const int begin = box.y0 + band * band_rows, end = std::min(begin + band_rows, box.y1);
-        Rows rows(a, b, {box.x0 - ssim_border, 0, box.x1 + ssim_border, 0});
+        WindowRows rows(a, b, {box.x0 - ssim_border, 0, box.x1 + ssim_border, 0});
         std::vector<double> values;
         for (int row = begin - ssim_border; row < end + ssim_border; ++row) {
             rows.load(row);

@@ -76,7 +76,7 @@ void encode_row(const float* light, const WriteOptions& options, Bytes& codes) {
     }
 }
 
-struct Strip {
+struct DeflatedStrip {
     int begin;  // its first row
     bool last;
     Bytes deflated;
@@ -101,13 +101,13 @@ Bytes filter_up(const Image& image, const WriteOptions& options, int begin, int 
 }
 
 /// A part of a deflate stream that ends at a byte, so that parts join by concatenation.
-Strip compress(const Bytes& filtered, int begin, bool last) {
+DeflatedStrip compress(const Bytes& filtered, int begin, bool last) {
     z_stream stream{};
     if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
         throw std::bad_alloc();
     constexpr std::size_t flush_bytes = 16;  // an empty stored block, which deflateBound does not count
-    Strip strip{begin, last, Bytes(deflateBound(&stream, filtered.size()) + flush_bytes),
-                adler32_z(1, filtered.data(), filtered.size()), filtered.size()};
+    DeflatedStrip strip{begin, last, Bytes(deflateBound(&stream, filtered.size()) + flush_bytes),
+                        adler32_z(1, filtered.data(), filtered.size()), filtered.size()};
     stream.next_in = const_cast<Bytef*>(filtered.data());
     stream.avail_in = uInt(filtered.size());
     stream.next_out = strip.deflated.data();
@@ -140,14 +140,14 @@ void write_png(Output& file, const Image& image, const WriteOptions& options, Jo
         return begin;
     };
     const auto compress_strip = [&](int begin) {
-        Strip strip{};
+        DeflatedStrip strip{};
         failure.guard([&] {
             const int end = std::min(begin + strip_rows, image.height);
             strip = compress(filter_up(image, options, begin, end), begin, end == image.height);
         });
         return strip;
     };
-    const auto write_strip = [&](Strip& strip) {
+    const auto write_strip = [&](DeflatedStrip& strip) {
         adler = adler32_combine(adler, strip.adler, z_off_t(strip.bytes));
         if (strip.begin == 0) strip.deflated.insert(strip.deflated.begin(), {0x78, 0x01});  // zlib header: 32 KiB window
         if (strip.last)
@@ -158,9 +158,10 @@ void write_png(Output& file, const Image& image, const WriteOptions& options, Jo
     // Few strips are in memory at a time, whatever the picture's size.
     tbb::parallel_pipeline(std::size_t(2 * tbb::this_task_arena::max_concurrency()),
                            tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, begin_strip) &
-                               tbb::make_filter<int, Strip>(tbb::filter_mode::parallel, compress_strip) &
-                               tbb::make_filter<Strip, void>(tbb::filter_mode::serial_in_order,
-                                                             [&](Strip strip) { failure.guard([&] { write_strip(strip); }); }));
+                               tbb::make_filter<int, DeflatedStrip>(tbb::filter_mode::parallel, compress_strip) &
+                               tbb::make_filter<DeflatedStrip, void>(tbb::filter_mode::serial_in_order, [&](DeflatedStrip strip) {
+                                   failure.guard([&] { write_strip(strip); });
+                               }));
     failure.rethrow();
     png_write_chunk(writer.png, iend, nullptr, 0);
 }
