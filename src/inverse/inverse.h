@@ -1,4 +1,4 @@
-// Content by inversion: the panel picture whose views are best, by the display's own tracer. Floor 3.
+// Content by inversion: the panel picture whose views are best, by the display's own tracer. Floor 3, public.
 #pragma once
 #include "content/content.h"
 #include "inverse/eye_places.h"

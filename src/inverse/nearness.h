@@ -1,4 +1,4 @@
-// How near what an eye sees comes to what it should see. Floor 3.
+// How near what an eye sees comes to what it should see. Floor 3, public as a part of inverse.h.
 #pragma once
 
 namespace lfdsim {

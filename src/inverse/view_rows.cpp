@@ -24,11 +24,11 @@ ViewRows::ViewRows(const Display& seen, const Geometry& geometry)
 
 std::int64_t ViewRows::rays() const {
     std::int64_t sum = 0;
-    for (const Light& light : lights_) sum += light.rays.samples();
+    for (const WavelengthRays& light : lights_) sum += light.rays.samples();
     return sum;
 }
 
-void ViewRows::add(const Light& light, const PanelRay& ray, std::vector<PanelRay>& row) const {
+void ViewRows::add(const WavelengthRays& light, const PanelRay& ray, std::vector<PanelRay>& row) const {
     constexpr std::uint32_t all = 3;
     const float share = ray.share * light.weight / float(light.rays.samples());
     const std::uint32_t pixel = subpixels_ ? ray.place >> 2 : ray.place, shown = subpixels_ ? ray.place & 3 : all;

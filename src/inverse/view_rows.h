@@ -34,16 +34,16 @@ class ViewRows {
     Rows of(int y0, int y1) const;
 
   private:
-    struct Light {  // rays for light of one wavelength
+    struct WavelengthRays {  // rays for light of one wavelength
         PanelRays rays;
         int channel;  // for which they are; -1: all
         float weight;
     };
-    void add(const Light&, const PanelRay&, std::vector<PanelRay>& row) const;
+    void add(const WavelengthRays&, const PanelRay&, std::vector<PanelRay>& row) const;
 
     int width_, height_;
     bool pixels_, subpixels_;
-    std::vector<Light> lights_;
+    std::vector<WavelengthRays> lights_;
 };
 
 }  // namespace lfdsim
