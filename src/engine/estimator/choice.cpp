@@ -56,6 +56,32 @@ std::vector<float> light_at(Kernel kernel, Tile tile, const std::vector<Rect>& p
     return light;
 }
 
+/// The light of places if the panel were white: the shares of the rays that meet it.
+std::vector<float> white_at(Kernel kernel, Tile tile, const std::vector<Rect>& places, bool subpixels) {
+    constexpr std::uint32_t all = 3;
+    std::vector<PanelRay> rays(std::size_t(Limits::place_side * Limits::place_side) * tile.samples);
+    std::vector<float> light;
+    for (const Rect& at : places) {
+        tile.crop_x = tile.x0 = at.x0;
+        tile.crop_y = tile.y0 = at.y0;
+        tile.x1 = at.x1;
+        tile.y1 = at.y1;
+        tile.crop_width = at.x1 - at.x0;
+        tile.rays = rays.data();
+        kernel(tile);
+        for (std::size_t pixel = 0; pixel < colours_of(at) / 3; ++pixel) {
+            float of[3] = {};
+            for (std::uint32_t k = 0; k < tile.samples; ++k) {
+                const PanelRay& ray = rays[pixel * tile.samples + k];
+                const std::uint32_t shown = subpixels ? ray.place & 3 : all;
+                for (std::uint32_t c = 0; c < 3; ++c) of[c] += shown == all || shown == c ? ray.share : 0;
+            }
+            for (const float sum : of) light.push_back(sum / float(tile.samples));
+        }
+    }
+    return light;
+}
+
 /// The square of the error of two independent pictures.
 double spread2_of(const std::vector<float>& a, const std::vector<float>& b) {
     double sum = 0;
@@ -112,7 +138,7 @@ struct FilteredError {
     /// Whether a pixel's error and the mean's are below what is allowed. Where neither right() nor wrong() holds, more points
     /// decide.
     bool right(double allowed, double mean) const {
-        return rms() <= allowed && local2 <= mean * mean && local_noise <= 3 * mean * mean &&
+        return rms() <= allowed && std::max(local2, 0.0) + 0.5 * local_noise <= mean * mean &&
                region2 <= 0.5 * mean * mean + region_noise;
     }
     bool wrong(double allowed, double mean) const {
@@ -147,22 +173,35 @@ EstimatorChoice::PixelColours EstimatorChoice::filtered_at(Kernel kernel, const 
 }
 
 EstimatorChoice::PixelColours EstimatorChoice::points_at(Kernel kernel, const std::vector<Rect>& places, std::uint32_t points,
-                                                         int repetition) const {
+                                                         int repetition, bool of_white) const {
     optics::RayOrigin view = points_.view;
     view.seed += std::uint64_t(repetition) * 0x9e3779b97f4a7c15u;  // the golden ratio, far from seeds that users count up
     Tile tile = points_.tile;
     tile.view = &view;
     tile.samples = points;
-    return light_at(kernel, tile, places);
+    return of_white ? white_at(kernel, tile, places, !tile.display->emission.whole) : light_at(kernel, tile, places);
 }
 
+// Dark parts of the content do not count: its root mean square. Dark parts of the display do: its mean over its root mean square,
+// of a white panel.
 void EstimatorChoice::look(Kernel kernel) {
     const std::vector<Rect> places = places_in({0, 0, points_.view.width, points_.view.height}, Limits::frame_places_an_axis);
-    const PixelColours a = points_at(kernel, places, Limits::first_points, 3),
-                       b = points_at(kernel, places, Limits::first_points, 4);
-    double squares = 0;  // a dark background does not count
-    for (std::size_t k = 0; k < a.size(); ++k) squares += double(a[k]) * b[k];
-    light_ = std::max(std::sqrt(squares / double(a.size())), Limits::least_light);
+    struct Light {
+        double rms, mean;
+    };
+    const auto light = [&](bool of_white) {
+        const PixelColours a = points_at(kernel, places, Limits::first_points, 3, of_white),
+                           b = points_at(kernel, places, Limits::first_points, 4, of_white);
+        double squares = 0, sum = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            squares += double(a[k]) * b[k];
+            sum += 0.5 * (double(a[k]) + b[k]);
+        }
+        return Light{std::sqrt(squares / double(a.size())), sum / double(a.size())};
+    };
+    const Light content = light(false), white = light(true);
+    light_ = std::max(white.rms > 0 ? content.rms * std::min(white.mean / white.rms, 1.) : 0,
+                      Limits::least_light * std::max(white.mean, Limits::least_white));
 }
 
 RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {

@@ -45,7 +45,9 @@ class EstimatorChoice {
     using PixelColours = std::vector<float>;  // three numbers a pixel
 
     PixelColours filtered_at(Kernel, const std::vector<Rect>& places, int strata) const;
-    PixelColours points_at(Kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition) const;
+    /// `of_white`: of a white panel.
+    PixelColours points_at(Kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition,
+                           bool of_white = false) const;
 
     /// A display whose pictures add up to that by filtered light: one box of the diffuser's bell.
     struct GaussianBox {
@@ -59,7 +61,7 @@ class EstimatorChoice {
     std::list<GaussianBox> filtered_;
     std::vector<int> strata_;             // an axis, of filtered light, the fewest first
     std::optional<std::uint32_t> given_;  // points a pixel, where the description has a number of samples
-    double light_ = 0;                    // of the frame, root mean square
+    double light_ = 0;                    // of the frame, by which errors are judged
 };
 
 }  // namespace lfdsim

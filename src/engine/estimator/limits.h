@@ -73,16 +73,17 @@ struct FilteredLimits {
     static constexpr int most_pieces = 8;
 
     // The choice between filtered light and points (engine/estimator/choice.cpp). Errors are allowed as shares of the frame's light
-    // (root mean square; a darker frame than `least_light` is judged as one of this light) or of the target error: of the mean over
-    // a neighbourhood of pixels, and of a pixel, by filtered light and by points. By points so that the mean over 500 pixels is
-    // right to 0.002.
-    static constexpr double least_light = 0.05, mean_allowed = 0.003, mean_of_target = 0.3, rms_allowed = 0.01, points_rms = 0.04;
+    // or of the target error: of the mean over a neighbourhood of pixels, and of a pixel, by filtered light and by points. By
+    // points so that the mean over 500 pixels is right to 0.002. The frame's light is at least `least_light` of the mean of a white
+    // panel's picture, which counts as `least_white` at least.
+    static constexpr double least_light = 0.05, least_white = 0.05, mean_allowed = 0.003, mean_of_target = 0.3, rms_allowed = 0.01,
+                            points_rms = 0.04;
     // A pixel of filtered light may be as wrong as one of 36 Sobol points: the error of these over that of 16.
     static constexpr double of_36_points = 0.5;
     // The power of the number of points by which their error falls, at least.
     static constexpr double falls_as = -0.62;
     // Points a pixel at a region's places: the first, four times as many in each step, and the last. The most that are chosen.
-    static constexpr std::uint32_t first_points = 16, last_points = 256, most_chosen_points = 4096;
+    static constexpr std::uint32_t first_points = 16, last_points = 256, most_chosen_points = 16384;
     // Pixels along a place's side: as many as share a list of lenses. Places along a region's side, along a neighbourhood's, and
     // along the frame's.
     static constexpr int place_side = 4, places_an_axis = 12, together = 3, frame_places_an_axis = 16;
