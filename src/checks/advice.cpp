@@ -50,7 +50,7 @@ void advise_on_lenses(Advised& a) {
     if (t.along[few].views < (strips ? 1.9 : 2))  // a little less than two pixels of a barrier's two views are behind a slit
         a.say(
             "the lenses are {} ({:.4g} of {:.4g} mm): they can show only one view. Use wider lenses (--set array.pitch_mm), or a "
-            "panel of finer pixels (--set panel.pixel_pitch_mm)",
+            "panel with smaller pixels (--set panel.pixel_pitch_mm)",
             t.along[few].views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", d.array.pitch_mm[few],
             d.panel.pixel_pitch_mm);
     else if (drift(drifts) > 0.5 && !strips)  // which lean so that their views are not whole numbers

@@ -57,8 +57,8 @@ void advise_on_layout(Advised& a) {
         };
         a.say(
             "the elemental images for a viewer at {:.5g} mm are {:.4f} times as wide as the lenses, {:.5g} x {:.5g} mm together, "
-            "wider than the panel ({:.5g} x {:.5g} mm): {:.3g} % of the lenses have theirs outside it. Use fewer lenses (--set "
-            "'array.count=[{}, {}]') or a greater content.viewing_distance_mm",
+            "wider than the panel ({:.5g} x {:.5g} mm): {:.3g} % of the lenses have their elemental images outside it. Use fewer "
+            "lenses (--set 'array.count=[{}, {}]') or a greater content.viewing_distance_mm",
             d.content.viewing_distance_mm, scale, scale * g.array_width_mm, scale * g.array_height_mm, g.panel_width_mm,
             g.panel_height_mm, 100 * beside_straight, fitting(g.panel_width_mm, 0), fitting(g.panel_height_mm, 1));
     }

@@ -58,8 +58,8 @@ void advise_on_size(Advised& a, double eye) {
     const double excess = std::max(width / screen_width, height / screen_height);
     if (excess > 1)
         a.say(
-            "the scene is larger than the display: from the eye it covers {}{:.5g} mm of the screen's {:.5g} x {:.5g} mm. "
-            "Make it smaller (--set content.height_mm={:.3g}), or move it farther behind (--set content.depth_mm)",
+            "the scene is larger than the display: from the eye it covers {}{:.5g} mm of the screen's {:.5g} x {:.5g} mm. Make it "
+            "smaller (--set content.height_mm={:.3g}), or move it farther from the eye (--set content.depth_mm)",
             width > 0 ? fmt::format("{:.5g} x ", width) : "a height of ", height, screen_width, screen_height,
             0.9 * full_height / excess);
     if (excess < 0.1)

@@ -47,7 +47,7 @@ std::vector<Problem> out_of_range(const DesignRequest& r) {
     if (r.depth_mm) check("--depth-mm", *r.depth_mm, depth_range);
     if (r.views) check("--views", double(*r.views), views_range);
     if (r.pitch_mm) check("--pitch-mm", *r.pitch_mm, pitch_range);
-    if (r.views && r.pitch_mm) all.push_back({"--views, --pitch-mm", "both decide the lenses' pitch; give one of them"});
+    if (r.views && r.pitch_mm) all.push_back({"--views, --pitch-mm", "both determine the lenses' pitch; give one of them"});
     if (r.lens == LensType::surfaces) all.push_back({"--lens", "is surfaces; allowed are plano_convex and ideal"});
     return all;
 }
@@ -149,10 +149,9 @@ std::optional<Problem> design(FirstOrder& o) {
                                                 r.fov_deg, p, D)};
     if (std::abs(L) < 2 * g) return Problem{"--depth-mm", fmt::format("is {:g}, less than twice the gap of {:.4g} mm", L, g)};
     if (r.lens == LensType::plano_convex && *d.lens.as<PlanoConvex>().aperture_radius_mm < p / 6)
-        return Problem{"--fov-deg",
-                       fmt::format("is {:g}, for which a spherical lens of index {} would have to be less than a third as "
-                                   "wide as its pitch; --lens ideal has no such limit",
-                                   r.fov_deg, pmma_index)};
+        return Problem{"--fov-deg", fmt::format("is {:g}, for which a spherical lens of index {} must be narrower than a third of "
+                                                "its pitch; --lens ideal does not have this limit",
+                                                r.fov_deg, pmma_index)};
 
     // Whole elemental images on the panel. Rows of hexagons alternate by half a pitch; corners of theirs stand beyond the first and
     // last.
@@ -221,7 +220,7 @@ FirstOrder first_order(const DesignRequest& request) {
     o.request = request;
     if (const std::optional<Problem> p = design(o)) {
         const std::string others = nearest(request);
-        throw InputError(p->where, p->what + (others.empty() ? "; no change of a single value makes it possible"
+        throw InputError(p->where, p->what + (others.empty() ? "; changing a single value does not make it possible"
                                                              : "; nearest possible: " + others));
     }
     return o;

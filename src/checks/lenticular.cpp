@@ -69,14 +69,14 @@ class Design {
         value("--fov-deg", r_.fov_deg, lenticular_fov_range);
         value("--sheet-mm", r_.sheet_mm, sheet_range);
         value("--eye-distance-mm", r_.eyes_mm, eyes_range);
-        if (r_.views && r_.pitch_mm) all.push_back({"--views, --pitch-mm", "both decide the lenses' pitch; give one of them"});
+        if (r_.views && r_.pitch_mm) all.push_back({"--views, --pitch-mm", "both determine the lenses' pitch; give one of them"});
         if (r_.fov_deg && r_.sheet_mm)
             all.push_back(
-                {"--fov-deg, --sheet-mm", "both decide the gap, since the panel is in the lenses' focus; give one of them"});
+                {"--fov-deg, --sheet-mm", "both determine the gap, since the panel is in the lenses' focus; give one of them"});
         if (r_.eyes_mm && (r_.fov_deg || r_.sheet_mm || r_.views != 2.))
-            all.push_back(
-                {"--eye-distance-mm",
-                 "puts the two views of --views 2 before a viewer's two eyes, without --fov-deg and --sheet-mm; leave it out"});
+            all.push_back({"--eye-distance-mm",
+                           "directs the two views of --views 2 to a viewer's two eyes, and takes the place of --fov-deg and "
+                           "--sheet-mm; leave it out"});
         if (r_.sheet_mm && r_.lens == LensType::ideal)
             all.push_back(
                 {"--sheet-mm", "is the thickness of glass, which ideal lenses do not have; leave it out, or --lens ideal"});

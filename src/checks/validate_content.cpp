@@ -41,7 +41,8 @@ void check_inverse(const Content& c, Findings& findings) {
     if (findings.sound(at + "eyes_mm") && corners != 0 && corners != 2 && corners != 4)
         findings.add(at + "eyes_mm", "has {} points; give two opposite corners of a box, or four of two boxes", corners);
     if (c.pickup == PickupKind::inverse && c.sampling == ContentSampling::pixel && findings.sound("content.sampling"))
-        findings.add("content.sampling", "is \"pixel\", which the inverse pick-up cannot do: it finds the light of each subpixel");
+        findings.add("content.sampling",
+                     "is \"pixel\", which the inverse pick-up does not support: it solves for the light of each subpixel");
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ void check_inverse(const Content& c, Findings& findings) {
 void validate_content(const Display& d, Findings& findings) {
     const Content& c = d.content;
     if (findings.sound("content.light.direction") && length(c.light.direction) < shortest_mm)
-        findings.add("content.light.direction", "is no direction, its length is {}; leave it out, or take [0, 0, 1]",
+        findings.add("content.light.direction", "has the length {} and so no direction; leave it out, or take [0, 0, 1]",
                      length(c.light.direction));
     if (c.objects.size() > max_objects)
         findings.add("content.object", "has more than the {} objects allowed; join some in one model file", max_objects);

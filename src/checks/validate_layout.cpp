@@ -16,7 +16,7 @@ void check_heights(const Display& d, const Geometry& g, Findings& findings) {
                      positive_length.text());
     else if (const double into = g.layers_top_mm - g.base_z_mm; !(into <= rounding_mm)) {
         const double value = d.array.gap_mm ? g.gap_mm : g.base_z_mm;
-        findings.add(given, "{} mm puts the lens's lowest point {:.6g} mm into the {}; at least {:.6g} mm", value, into,
+        findings.add(given, "{} mm puts the lens's lowest point {:.6g} mm into the {}; give at least {:.6g} mm", value, into,
                      d.panel.layers.empty() ? "panel" : "panel's layers", value + into);
     } else if (!(g.top_z_mm <= longest_mm && std::abs(g.rear_principal_mm) <= longest_mm))
         findings.add(given, "puts the lens's top at {:.6g} mm and its viewer-side principal plane at {:.6g} mm, allowed is {}",
@@ -35,14 +35,13 @@ void check_camera(const Display& d, const Geometry& g, Findings& findings) {
     // A lens camera's pupil lies across the line of sight: its rim reaches lower than its centre when the camera looks sideways.
     const double rim = eye[2] - d.camera.pupil_diameter_mm.value_or(0) / 2 * across / distance;
     if (!(eye[2] > top))
-        findings.add("camera.position_mm", "z = {} mm is inside the display, whose {} {:.6g} mm from the panel; z must be more",
+        findings.add("camera.position_mm", "z = {} mm is inside the display, whose {} {:.6g} mm from the panel; give a larger z",
                      eye[2], g.diffuser_z_mm ? "diffuser stands" : "lenses end", top);
     else if (!(rim > top))
-        findings.add(
-            "camera.pupil_diameter_mm",
-            "{} mm lowers the pupil's rim to z = {:.6g} mm, into the display, which ends {:.6g} mm from the panel; a smaller "
-            "pupil, or a camera further away",
-            *d.camera.pupil_diameter_mm, rim, top);
+        findings.add("camera.pupil_diameter_mm",
+                     "{} mm lowers the pupil's rim to z = {:.6g} mm, into the display, which ends {:.6g} mm from the panel; take a "
+                     "smaller pupil, or a camera further away",
+                     *d.camera.pupil_diameter_mm, rim, top);
     if (findings.sound("panel.") && !positive_length.contains(g.frame_width_mm))
         findings.add("camera.fov_deg", "{} degrees at {:.6g} mm from the target make a frame {:.6g} mm wide, allowed is {}",
                      d.camera.fov_deg.value_or(0), distance, g.frame_width_mm, positive_length.text());
@@ -61,14 +60,15 @@ void validate_layout(const Display& d, Findings& findings) {
     check_heights(d, g, findings);
     check_size("array.count", g.array_width_mm, g.array_height_mm, findings);
     if (d.diffuser && findings.sound("diffuser.") && !(*g.diffuser_z_mm > g.top_z_mm))
-        findings.add("diffuser.distance_mm",
-                     "{} mm puts the diffuser inside the lenses, which reach {:.6g} mm above the vertex plane; more than that",
-                     d.diffuser->distance_mm, g.top_z_mm - g.vertex_plane_mm);
+        findings.add(
+            "diffuser.distance_mm",
+            "{} mm puts the diffuser inside the lenses, which extend {:.6g} mm above the vertex plane; give more than that",
+            d.diffuser->distance_mm, g.top_z_mm - g.vertex_plane_mm);
     // a misplaced diffuser could put the camera below it: report one fault, not two
     if (findings.sound("camera.") && findings.sound("diffuser.")) check_camera(d, g, findings);
     if (findings.sound("content.") && !(d.content.viewing_distance_mm > g.top_z_mm))
         findings.add("content.viewing_distance_mm",
-                     "{} mm is inside the display, whose lenses end {:.6g} mm from the panel; more than that, or inf",
+                     "{} mm is inside the display, whose lenses end {:.6g} mm from the panel; give more than that, or inf",
                      d.content.viewing_distance_mm, g.top_z_mm);
 }
 

@@ -47,7 +47,7 @@ class LensCheck {
         for (std::size_t i = 0; i + 1 < surfaces.size(); ++i)
             if (const double clear = clearance_mm(surfaces[i], surfaces[i + 1]); !(clear >= -rounding_mm))
                 findings.add(fmt::format("lens.surface.{}.distance_mm", i),
-                             "{} mm lets the surface and the next one cross within the aperture; at least {:.6g} mm",
+                             "{} mm makes this surface and the next one cross within the aperture; give at least {:.6g} mm",
                              given.surfaces[i].distance_mm, given.surfaces[i].distance_mm - clear);
     }
 
@@ -58,22 +58,22 @@ class LensCheck {
         if (radius)
             check_width("lens.aperture_radius_mm", *radius);
         else
-            findings.add("lens.aperture_radius_mm", "is missing; only lenses of array.aperture = \"cell\" can do without");
+            findings.add("lens.aperture_radius_mm", "is missing; only lenses of array.aperture = \"cell\" do not need it");
         return radius.has_value();
     }
 
     // Round lenses must not overlap; lenses that fill their cells are cut by the borders.
     void check_width(const std::string& where, double radius) {
         if (array.aperture == Aperture::circle && radius > inner_radius_mm(array))
-            findings.add(where, "{} mm makes the lens wider than array.pitch_mm = {} mm; at most {} mm, or a larger pitch", radius,
-                         array.pitch_mm.least(), inner_radius_mm(array));
+            findings.add(where, "{} mm makes the lens wider than array.pitch_mm = {} mm; give at most {} mm, or a larger pitch",
+                         radius, array.pitch_mm.least(), inner_radius_mm(array));
     }
 
     // The stops of neighbours are holes in one sheet; they must not overlap.
     void check_stop() {
         if (lens.stop_radius_mm && findings.sound("lens.stop_radius_mm") && *lens.stop_radius_mm > inner_radius_mm(array))
             findings.add("lens.stop_radius_mm",
-                         "{} mm makes the holes of neighbours overlap at array.pitch_mm = {} mm; at most {} mm, or none",
+                         "{} mm makes the holes of neighbours overlap at array.pitch_mm = {} mm; give at most {} mm, or none",
                          *lens.stop_radius_mm, array.pitch_mm.least(), inner_radius_mm(array));
     }
 
@@ -84,13 +84,12 @@ class LensCheck {
         const double highest = 2 * std::sqrt((R - r) * (R + r));
         if (R < r)
             findings.add("lens.sphere_radius_mm",
-                         "R = {} mm is smaller than {} = {} mm, so the ball does not cover the aperture; at least that", R,
+                         "R = {} mm is smaller than {} = {} mm, so the sphere does not cover the aperture; give at least that", R,
                          corner ? "the cell's circumradius" : "the aperture radius r", r);
         else if (findings.sound("lens.cylinder_height_mm") && h > highest)
             findings.add("lens.cylinder_height_mm",
-                         "h = {} mm, but the ball of R = {} mm would cut the flat face; at most 2 sqrt(R^2 - r^2) = {} mm, and the "
-                         "rest as a "
-                         "[[panel.layer]] under it",
+                         "h = {} mm, but the sphere of R = {} mm would cut the flat face; give at most 2 sqrt(R^2 - r^2) = {} mm, "
+                         "and the rest as a [[panel.layer]] under it",
                          h, R, highest);
     }
 
@@ -100,10 +99,11 @@ class LensCheck {
         const double edge = std::sqrt(1 / std::max((1 + s.conic) * s.curvature_per_mm * s.curvature_per_mm, 0.0));
         const auto [low, high] = sag_range_mm(s);
         if (s.semi_aperture_mm > edge)
-            findings.add(where, "{} mm, but the curvature of {} per mm with the conic of {} ends {} mm from the axis; at most that",
+            findings.add(where,
+                         "{} mm, but the surface of curvature {} per mm and conic {} ends {} mm from the axis; give at most that",
                          s.semi_aperture_mm, s.curvature_per_mm, s.conic, edge);
         else if (!(low >= -longest_mm && high <= longest_mm))
-            findings.add(where, "{} mm, within which the sag grows to {:.6g} mm, allowed is {}", s.semi_aperture_mm,
+            findings.add(where, "{} mm, within which the sag reaches {:.6g} mm; allowed is {}", s.semi_aperture_mm,
                          high > -low ? high : low, any_length.text());
     }
 

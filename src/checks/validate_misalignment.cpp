@@ -16,14 +16,14 @@ class ErrorsCheck {
     ErrorsCheck(const Display& d, Findings& f) : d_(d), e_(d.errors), g_(resolve_unchecked(without_errors(d))), findings_(f) {}
 
     void check() {
-        if (d_.array.surround == Surround::clear) refuse_all("surround = \"clear\" has no sheet that holds its lenses", true);
-        if (g_.glued) refuse_all("the lens is glued on", false);
+        if (d_.array.surround == Surround::clear) refuse_all("array.surround = \"clear\" has no sheet that holds its lenses", true);
+        if (g_.glued) refuse_all("the lens is glued to the layers or the panel", false);
         if (d_.array.surround == Surround::plate)
             refuse_each("tilt_sd_deg", e_.tilt_sd_deg != 0, "tilts", has(&LensErrorBounds::tilt_deg),
                         "a moulded plate's lenses are parts of one sheet, which do not turn");
         if (d_.array.surround == Surround::plate && is_irregular(e_) && hollow())
             findings_.add("errors", "{}",
-                          "would move or bend concave lenses in a moulded plate, which cannot move in it; leave them out");
+                          "would move or deform concave lenses in a moulded plate, in which they cannot move; leave them out");
         if (d_.content.made_for == MadeFor::built && is_strips(d_.array) && is_wedged(e_))
             findings_.add("content.made_for", "{}",
                           "is \"built\", but elemental images cannot be calibrated for the wedge of strips; take \"description\"");
@@ -137,8 +137,8 @@ class ErrorsCheck {
         const double into = g_.layers_top_mm - (g_.base_z_mm + down), top = g_.top_z_mm + up;
         if (!g_.glued && !(into <= rounding_mm) && down < 0)
             findings_.add(culprit(),
-                          "moves lenses by up to {:.6g} mm towards the panel, {:.6g} mm into the {}; less, or a larger gap", -down,
-                          into, d_.panel.layers.empty() ? "panel" : "panel's layers");
+                          "moves lenses by up to {:.6g} mm towards the panel, {:.6g} mm into the {}; give less, or a larger gap",
+                          -down, into, d_.panel.layers.empty() ? "panel" : "panel's layers");
         else if (up > 0 && g_.diffuser_z_mm && !(*g_.diffuser_z_mm > top))
             findings_.add(culprit(), "moves lenses by up to {:.6g} mm towards the viewer, into the diffuser at {:.6g} mm", up,
                           *g_.diffuser_z_mm);

@@ -21,14 +21,15 @@ void check_custom(const Panel& panel, Findings& findings) {
     }
     for (const Channel channel : {Channel::r, Channel::g, Channel::b})
         if (std::none_of(panel.custom.begin(), panel.custom.end(), [&](const Subpixel& s) { return s.channel == channel; }))
-            findings.add("panel.subpixel", "no rectangle shines in \"{}\"; give at least one for each of r, g, b", word(channel));
+            findings.add("panel.subpixel", "no rectangle emits \"{}\"; give at least one for each of r, g, b", word(channel));
     if (!findings.sound("panel.subpixel")) return;
     if (const auto two = overlapping(panel); two && two->first == two->second)
         findings.add(where(two->first) + ".rect", "overlaps itself: the cell of {} x {} pixels repeats", cell[0], cell[1]);
     else if (two)
         findings.add(where(two->second) + ".rect", "overlaps panel.subpixel.{}", two->first);
     else if (const std::size_t parts = bounded_parts(panel).size(); parts > max_subpixel_parts)
-        findings.add("panel.subpixel", "come to {} parts where they hang over the cell's border; allowed are {}", parts,
+        findings.add("panel.subpixel",
+                     "give {} parts, since rectangles that extend over the cell's border are divided there; allowed are {}", parts,
                      max_subpixel_parts);
 }
 

@@ -92,7 +92,7 @@ void check_view(const Camera& camera, Findings& findings) {
     if (distance < shortest_mm)
         findings.add("camera.target_mm", "is the position of the camera; give another point to look at");
     else if (up_length < shortest_mm)
-        findings.add("camera.up", "is no direction, its length is {}; take [0, 1, 0]", up_length);
+        findings.add("camera.up", "has the length {} and so no direction; take [0, 1, 0]", up_length);
     // |view x up| = |view| |up| sin(angle): below a microradian single precision cannot resolve the picture's up
     else if (length(cross(view, up)) <= 1e-6 * distance * up_length)
         findings.add("camera.up",
@@ -111,7 +111,8 @@ void check_lattice(const LensArray& array, Findings& findings) {
                      (*array.count)[0]);
     if (!array.slant_deg || !findings.sound("array.slant_deg")) return;
     if (!is_strips(array))
-        findings.add("array.slant_deg", "is given, but array.lattice is \"{}\"; turn such an array by array.rotation_deg", lattice);
+        findings.add("array.slant_deg", "is given, but array.lattice is \"{}\"; rotate that lattice by array.rotation_deg",
+                     lattice);
     else if (array.rotation_deg != 0 && findings.sound("array.rotation_deg"))
         findings.add("array.slant_deg", "both array.slant_deg and array.rotation_deg given; leave one out");
 }

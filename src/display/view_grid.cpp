@@ -78,10 +78,9 @@ std::vector<Problem> faults_of(const ViewGrid& grid) {
         if (!any_length.contains(x) || !any_length.contains(y)) reach = infinity;
     }
     if (!(reach <= steepest_slope * grid.distance_mm))
-        all.push_back(
-            {"baseline_mm", fmt::format("puts cameras {:.6g} mm aside at a distance of {:.6g} mm; allowed is up to {} times "
-                                        "the distance. Give both in millimetres",
-                                        reach, grid.distance_mm, steepest_slope)});
+        all.push_back({"baseline_mm", fmt::format("puts cameras {:.6g} mm off axis at a distance of {:.6g} mm; allowed is up to {} "
+                                                  "times the distance. Give both in millimetres",
+                                                  reach, grid.distance_mm, steepest_slope)});
     const auto apart = [&](int columns, int rows, auto step) {
         for (int j = 0; j < rows; ++j)
             for (int i = 0; i < columns; ++i)
@@ -89,9 +88,9 @@ std::vector<Problem> faults_of(const ViewGrid& grid) {
         return true;
     };
     if (!apart(grid.columns - 1, grid.rows, [&](int i, int j) { return grid.camera(i + 1, j)[0] - grid.camera(i, j)[0]; }))
-        all.push_back({"baseline_mm", "each camera of a row must stand to the right of the one before it"});
+        all.push_back({"baseline_mm", "each camera of a row must be to the right of the one before it"});
     if (!apart(grid.columns, grid.rows - 1, [&](int i, int j) { return grid.camera(i, j)[1] - grid.camera(i, j + 1)[1]; }))
-        all.push_back({"baseline_mm", "each camera of a column must stand below the one before it"});
+        all.push_back({"baseline_mm", "each camera of a column must be below the one before it"});
     return all;
 }
 

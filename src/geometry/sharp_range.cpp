@@ -69,7 +69,7 @@ std::string depths_in_words(const Geometry& g, const SharpRange& range, double e
     if (!front.empty())
         words += fmt::format("{}from {} to {}", words.empty() ? "" : " and ",
                              to_viewer ? depth_in_words(front.low) : length_in_words(front.low), before);
-    return words.empty() ? "no depth as far as the viewer" : words;
+    return words.empty() ? "no depth up to the viewer" : words;
 }
 
 double lens_limit_per_mm(const Geometry& g, const Theory& t, double depth, double eye_mm) {

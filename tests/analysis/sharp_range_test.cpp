@@ -77,7 +77,7 @@ TEST(SharpRange, WordsNameNothingBehindTheViewer) {
     EXPECT_EQ(words(-30, -7), "from 7 to 30 mm behind the lenses");
     EXPECT_EQ(words(-30, 40), "from 30 mm behind the lenses to 40 mm in front of the lenses");
     EXPECT_EQ(words(-infinity, infinity), "from infinity behind the lenses to the viewer");
-    EXPECT_EQ(words(700, 2677), "no depth as far as the viewer");
+    EXPECT_EQ(words(700, 2677), "no depth up to the viewer");
     EXPECT_EQ(depths_in_words(g, range_of_inverse(g, 0.02, -0.01, 600), 600),
               "from 100 mm behind the lenses to infinity and from 50 mm in front of the lenses to the viewer");
 }

@@ -166,7 +166,7 @@ CASES = [  # name, arguments, words of the message
     ("output in a file", "render tiny.toml --panel-image panel.png -o tiny.toml/out.png", "tiny.toml is not a folder"),
     ("a folder in a file", "export cycles tiny.toml --pattern white -o tiny.toml/scene", "cannot be made: ", "tiny.toml is not a folder"),
     ("results in a file", "analyze spot tiny.toml -o tiny.toml/results", "cannot be made: ", "tiny.toml is not a folder"),
-    ("two outputs of one name", "eia tiny.toml --pickup traced -o out.npy --mapping ./out.npy", "--output, --mapping: are two files of one name"),
+    ("two outputs of one name", "eia tiny.toml --pickup traced -o out.npy --mapping ./out.npy", "--output, --mapping: name the same file"),
     ("a table without a name", ["errors", "tiny.toml", "-o", ""], "--output: the name is empty"),
     ("output with too long a name", f"render tiny.toml --panel-image panel.png --samples 16777216 -o {'x' * 300}.png", "name too long"),
     ("output is a folder", "render tiny.toml --panel-image panel.png -o folder.png", "is a folder"),

@@ -50,7 +50,7 @@ program.must(EIA + " --mapping lens.npy --replace")
 checks.that("mine" not in (folder / "lens.json").read_text() + (folder / "lens.svg").read_text(), "--replace did not write over them")
 program.must(EIA + " --mapping lens.npy")  # its own of before: nothing is lost
 checks.refused(program, "the .json of another mapping", EIA + " --mapping lens.exr", "lens.json: exists")
-checks.refused(program, "--replace without --mapping", EIA + " --replace", "--replace: is for the files beside that of --mapping")
+checks.refused(program, "--replace without --mapping", EIA + " --replace", "--replace: applies to the files beside that of --mapping")
 
 QUILT = f"views tiny.toml --model pyramid.obj --view-cone-deg 10 --view-size 32x20 -o q_qs5x1a1.6.png {QUIET}"
 beside = mine("q_qs5x1a1.6.toml")

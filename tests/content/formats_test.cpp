@@ -144,7 +144,7 @@ TEST(Ply, WhatIsNoMeshIsNamed) {
     EXPECT_THAT(refused(folder.write("p.ply", ply(xyz, square))), testing::HasSubstr("holds 4 points and no triangles"));
     EXPECT_THAT(refused(folder.write("h.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\npr")),
                 testing::HasSubstr("header has no end"));
-    EXPECT_THAT(refused(folder.write("n.ply", "nothing at all\n")), testing::HasSubstr("does not begin as PLY files do"));
+    EXPECT_THAT(refused(folder.write("n.ply", "nothing at all\n")), testing::HasSubstr("does not begin like a PLY file"));
     const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
     EXPECT_THAT(refused(folder.write("c.ply", ply(xyz + face, "-1 -1 0\n1 -1"))), testing::HasSubstr("cut short"));
     EXPECT_THAT(refused(folder.write("w.ply", ply(xyz + face, "-1 -1 zero\n"))), testing::HasSubstr("a word"));

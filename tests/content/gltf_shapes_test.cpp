@@ -231,13 +231,13 @@ TEST(Gltf, LiesAreFound) {
     EXPECT_THAT(changed(R"("byteOffset":0,"byteLength":48)", R"("byteOffset":70,"byteLength":48)"),
                 testing::HasSubstr("bufferViews[0]"));
     EXPECT_THAT(changed(R"("byteOffset":0,"byteLength":48)", R"("byteOffset":-1,"byteLength":48)"),
-                testing::HasSubstr("no whole number"));
-    EXPECT_THAT(changed(R"("byteOffset":0)", R"("byteOffset":18446744073709551615)"), testing::HasSubstr("no whole number"));
+                testing::HasSubstr("not a whole number"));
+    EXPECT_THAT(changed(R"("byteOffset":0)", R"("byteOffset":18446744073709551615)"), testing::HasSubstr("not a whole number"));
     EXPECT_THAT(changed(R"("count":4)", R"("count":5)"), testing::HasSubstr("accessors[0]"));
     EXPECT_THAT(changed(R"("count":4)", R"("count":4000000000)"), testing::HasSubstr("accessors[0]"));
-    EXPECT_THAT(changed(R"("componentType":5126)", R"("componentType":5130)"), testing::HasSubstr("no type"));
+    EXPECT_THAT(changed(R"("componentType":5126)", R"("componentType":5130)"), testing::HasSubstr("not a type"));
     EXPECT_THAT(changed(R"("mesh":0)", R"("mesh":7)"), testing::HasSubstr("there are only 1 meshes"));
-    EXPECT_THAT(changed(R"("mesh":0)", R"("mesh":0,"children":[0])"), testing::HasSubstr("recursively"));
+    EXPECT_THAT(changed(R"("mesh":0)", R"("mesh":0,"children":[0])"), testing::HasSubstr("descendant of itself"));
     EXPECT_THAT(changed(R"([{"mesh":0}])", R"([{"children":[2]},{"children":[2]},{"mesh":0}])"),
                 testing::HasSubstr("another node"));
     EXPECT_THAT(changed(R"("uri":"t.bin")", R"("uri":"../t.bin2")"), testing::HasSubstr("not in the model's folder"));

@@ -39,11 +39,11 @@ def content(name):
 program.must(f"{SHOWN} -o cpu.npy")
 for stand_in, said in {
         "driver=0.0": "no NVIDIA driver was found",
-        "driver=11.4": "the NVIDIA driver is too old: it knows CUDA 11.4",
+        "driver=11.4": "the NVIDIA driver is too old: it supports CUDA 11.4",
         "gpus=0": "there is a driver, but no GPU that it shows",
         "capability=6.1": "compute capability 6.1; this lfdsim holds code for 7.5 and newer",
         "fail=cudaGetDeviceCount:1": "the NVIDIA driver answers: unspecified launch failure",
-        "fail=cudaGetDeviceProperties:1": "it does not tell its properties",
+        "fail=cudaGetDeviceProperties:1": "it does not report its properties",
         "fail=cudaSetDevice:1": "it answers: unspecified launch failure"}.items():
     code, out, err = on(stand_in, "doctor --json")
     checks.that(code == 0 and said in json.loads(out)["gpu"]["used"], f"{stand_in}: doctor says {out} {err}")

@@ -115,8 +115,8 @@ TEST(Agf, FaultsHaveALine) {
     EXPECT_EQ(fault("CD 1 2 3\n" + bk7), "f.agf:1: CD: precedes the first glass, which begins with a line NM");
     EXPECT_EQ(fault("NM " + std::string(65, 'A') + " 1\n"),
               "f.agf:1: NM: \"" + std::string(40, 'A') + "...\" is longer than the 64 bytes allowed");
-    EXPECT_EQ(fault(""), "f.agf: has no line NM with a glass; an AGF catalogue does");
-    EXPECT_EQ(fault("schema = 1\n[panel]\n"), "f.agf: has no line NM with a glass; an AGF catalogue does");
+    EXPECT_EQ(fault(""), "f.agf: has no line NM with a glass, which an AGF catalogue has");
+    EXPECT_EQ(fault("schema = 1\n[panel]\n"), "f.agf: has no line NM with a glass, which an AGF catalogue has");
     EXPECT_THAT(fault(std::string("NM A\0B", 6)), HasSubstr("is a binary file"));
     EXPECT_THAT(fault(std::string(largest_agf_bytes + 1, 'x')),
                 HasSubstr("has 8388609 bytes, allowed are 8388608; is this a glass catalogue?"));

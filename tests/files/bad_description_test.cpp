@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("-0.1", "nan", surfaces), "d:13:20", "lens.surface.1.curvature_per_mm: is nan"},
         Bad{with("-0.1", "-0.1\nconik = 0", surfaces), "d:14:1", "lens.surface.1.conik: is unknown; did you mean conic?"},
         Bad{with("-0.1", "-0.1\neven_asphere = [1e-5, '']", surfaces), "d:14:16", "element 1 is a string"},
-        Bad{with("distance_mm = 4", "distance_mm = 1", surfaces), "d:10:15", "cross within the aperture; at least 2 mm"},
+        Bad{with("distance_mm = 4", "distance_mm = 1", surfaces), "d:10:15", "cross within the aperture; give at least 2 mm"},
         Bad{with("[array]", "[array]\nsurround = \"glass\"", surfaces), "d:16:12",
             "is \"glass\", allowed are \"opaque\", \"clear\", \"plate\""}));
 

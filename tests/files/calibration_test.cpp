@@ -169,7 +169,7 @@ TEST(Calibration, SaysWhatItDoesNotRead) {
     for (const char* words :
          {"invView is 0", "flipImageY is not read", "flipSubp is not read", "Not read: verticalAngle.", "configVersion is 9.9",
           "Only the first 1 of 2 subpixelCells", "Assumed: the calibration holds for an eye at",
-          "Assumed: cylindrical lenses without aberrations", "their sizes, which it does not hold", "viewCone of 42"})
+          "Assumed: cylindrical lenses without aberrations", "their sizes, which it does not contain", "viewCone of 42"})
         EXPECT_THAT(notes, Contains(HasSubstr(words)));
 }
 
@@ -199,16 +199,16 @@ TEST(Calibration, NamesTheKeyThatIsWrong) {
         Json value;
         std::string message;
     } cases[] = {
-        {"screenW", 99.5, "screenW: is 99.5; a number of pixels is whole"},
+        {"screenW", 99.5, "screenW: is 99.5; give a whole number of pixels"},
         {"screenH", 1e9, "screenH: is 1000000000; allowed is 1 to 100000"},
         {"viewCone", 0, "viewCone: is 0; allowed is 1 to 170"},
-        {"viewCone", nullptr, "viewCone: is missing, from which the gap would follow; give --gap-mm"},
+        {"viewCone", nullptr, "viewCone: is missing, which determines the gap; give --gap-mm"},
         {"flipImageX", 3, "flipImageX: is 3; allowed is 0 to 1"},
         {"flipImageX", "yes", "flipImageX: yes is not a finite number"},
-        {"pitch", 9000, "pitch: is 9000 lenses an inch, with 0.0344 of the panel's pixels behind each"},
+        {"pitch", 9000, "pitch: is 9000 lenses per inch, with 0.0344 of the panel's pixels behind each"},
         {"CellPatternMode", 1, "CellPatternMode: is 1, but there are no subpixelCells; give 2, or mode 0"},
         {"CellPatternMode", 7, "CellPatternMode: is 7; allowed is 0 to 4"},
-        {"subpixelCells", 5, "subpixelCells: is no list of 1 to 16 cells"},
+        {"subpixelCells", 5, "subpixelCells: is not a list of 1 to 16 cells"},
         {"subpixelCells", Json::array({1}), "subpixelCells[0].ROffsetX: is missing"},
         {"subpixelCells", Json::array({cell(0, 0, 0, 0, 0.3, 0)}), "subpixelCells: have two subpixels at the same position"},
         {"subpixelCells", Json::array({cell(-9, 0, 0, 0, 0.3, 0)}), "subpixelCells[0].ROffsetX: is -9; allowed is -1 to 1"},
@@ -223,7 +223,7 @@ TEST(Calibration, NamesTheKeyThatIsWrong) {
                 HasSubstr("subpixelCells: has 2, but CellPatternMode 3 repeats 4"));
     EXPECT_THAT(calibration_refused(R"({"slope": 6})"), HasSubstr("pitch: is missing"));
     for (const char* nothing : {"{}", "[]", "7", R"({"configValue": "{"})"})
-        EXPECT_THAT(calibration_refused(nothing), HasSubstr("is no calibration"));
+        EXPECT_THAT(calibration_refused(nothing), HasSubstr("is not a calibration"));
 }
 
 TEST(Calibration, RefusesWhatTheRequestMakesImpossible) {
@@ -241,14 +241,14 @@ TEST(Calibration, RefusesWhatTheRequestMakesImpossible) {
 TEST(Calibration, StandsHostileFiles) {
     const std::string whole = published_unit().dump();
     for (std::size_t end = 0; end < whole.size(); end += 11)
-        EXPECT_THAT(calibration_refused(whole.substr(0, end)), HasSubstr("visual.json: is no JSON: parse error at line")) << end;
+        EXPECT_THAT(calibration_refused(whole.substr(0, end)), HasSubstr("visual.json: is not JSON: parse error at line")) << end;
     const std::size_t deep = 250000;
     EXPECT_THAT(calibration_refused(R"({"pitch": )" + std::string(deep, '[') + std::string(deep, ']') + "}"),
                 HasSubstr("pitch: array is not a finite number"));
     EXPECT_THAT(calibration_refused(R"({"a": )" + std::string(deep, '[') + std::string(deep, ']') + "}"),
-                HasSubstr("is no calibration"));
+                HasSubstr("is not a calibration"));
     EXPECT_THAT(calibration_refused(std::string((1 << 20) + 1, ' ')), HasSubstr("1048576"));
-    EXPECT_THAT(calibration_refused(R"({"pitch": 1e999})"), HasSubstr("is no JSON"));
+    EXPECT_THAT(calibration_refused(R"({"pitch": 1e999})"), HasSubstr("is not JSON"));
 }
 
 }  // namespace

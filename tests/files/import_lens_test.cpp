@@ -137,7 +137,7 @@ TEST(ImportLens, KeepsStopsAndLeavesOutMerePlanes) {
     const std::vector<Surface>& rest = without.display.lens.as<SurfaceLens>().surfaces;
     ASSERT_EQ(rest.size(), 7u);
     EXPECT_DOUBLE_EQ(rest[2].distance_mm, surfaces[2].distance_mm + surfaces[3].distance_mm);
-    EXPECT_THAT(without.notes, Contains(HasSubstr("neither bend nor stop light: surfaces 5")));
+    EXPECT_THAT(without.notes, Contains(HasSubstr("neither refract nor stop light: surfaces 5")));
 }
 
 // The rim's ray of the beam along the axis is f/2N from the axis on the first surface; a chief ray of the field adds its own

@@ -138,12 +138,12 @@ TEST(Optiland, NamesWhatCannotBeImported) {
         {[](Json&, Json& s) {
              s[2]["aperture"] = {{"type", "RadialAperture"}, {"r_min", 1}, {"r_max", 2}};
          },
-         "has a dark middle"},
+         "has a central obscuration"},
         {[](Json&, Json& s) { s[2] = 5; }, "[2]: is of type null"},
         {[](Json&, Json& s) {
              s = Json::array({1, 2});
          },
-         "surface_group.surfaces is no list of 3 to 1000"},
+         "surface_group.surfaces is not a list of 3 to 1000"},
         {[](Json& all, Json&) { all = Json::array(); }, "is this a saved lens?"},
     };
     for (const auto& c : cases) EXPECT_THAT(optiland_refused_with(c.change), HasSubstr(c.message));
@@ -152,7 +152,7 @@ TEST(Optiland, NamesWhatCannotBeImported) {
 TEST(Optiland, SaysWhereAFileIsCutOrNoJson) {
     const std::string whole = saved(doublet());
     for (std::size_t end = 0; end < whole.size(); end += 7)
-        EXPECT_THAT(optiland_refused(whole.substr(0, end)), HasSubstr("lens.json: is no JSON: parse error at line")) << end;
+        EXPECT_THAT(optiland_refused(whole.substr(0, end)), HasSubstr("lens.json: is not JSON: parse error at line")) << end;
     EXPECT_THAT(optiland_refused("{\n  \"a\": Infinity x}"), HasSubstr("line 2, column 17"));  // also behind a bare word
     EXPECT_THAT(optiland_refused(std::string(1 << 20, '[')), HasSubstr("parse error"));
     EXPECT_THAT(optiland_refused(std::string((1 << 20) + 1, ' ')), HasSubstr("1048576"));

@@ -111,21 +111,21 @@ TEST(RayOptics, NamesWhatCannotBeImported) {
         {[](RoaJson& m, RoaJson&) {
              m["profile_dict"]["2"] = object_of("EvenPolynomial", {{"cv", 1}, {"cc", 0.5}, {"coefs", {1}}});
          },
-         "ifcs[2]: has the term 1 r^2 beside a conic of constant 0.5"},
+         "ifcs[2]: has the term 1 r^2 beside the conic constant 0.5"},
         {[](RoaJson&, RoaJson& s) { s["clear_apertures"] = RoaJson::array({object_of("Rectangular", {})}); },
          "has an aperture of type Rectangular"},
         {[](RoaJson&, RoaJson& s) {
              s["clear_apertures"] = RoaJson::array({object_of("Circular", {{"radius", 1}, {"y_offset", 1}})});
          },
-         "has an aperture beside the axis"},
+         "has a decentred aperture"},
         {[](RoaJson& m, RoaJson&) { m["seq_model"]["attributes"]["ifcs"][2]["__instance_type__"][1] = "ThinLens"; },
          "ifcs[2]: is of type ThinLens"},
         {[](RoaJson& m, RoaJson&) {
              m["seq_model"]["attributes"]["gaps"][1]["attributes"]["medium"] = object_of("InterpolatedGlass", {{"label", "x"}});
          },
          "gaps[1]: has a medium of type InterpolatedGlass"},
-        {[](RoaJson& m, RoaJson&) { m["seq_model"]["attributes"]["gaps"].erase(0); }, "seq_model.gaps is no list of 4 to 1000"},
-        {[](RoaJson& m, RoaJson&) { m.erase("seq_model"); }, "seq_model.ifcs is no list of 3 to 1000: is this a saved lens?"},
+        {[](RoaJson& m, RoaJson&) { m["seq_model"]["attributes"]["gaps"].erase(0); }, "seq_model.gaps is not a list of 4 to 1000"},
+        {[](RoaJson& m, RoaJson&) { m.erase("seq_model"); }, "seq_model.ifcs is not a list of 3 to 1000: is this a saved lens?"},
         {[](RoaJson& m, RoaJson&) { m["system_spec"]["attributes"]["_dimensions"] = "yd"; },
          "system_spec._dimensions: yd is unknown"},
     };

@@ -324,7 +324,7 @@ TEST_F(ViewsSourceTest, BadDescriptions) {
              {good + "pseudoscopic = 1\n", "true or false"},
              {good + "distance_mm = -3\n", "allowed is"},
              {good + "height_mm = 3\n", "needs width_mm"},
-             {good + "depth_pictures = \"d_*.exr\"\n", "beside them"},
+             {good + "depth_pictures = \"d_*.exr\"\n", "as well"},
              {"schema = 1\ncolumns = 3\nrows = 2\nbaseline_mm = [0, 5]\n", "baseline_mm is 0"},
              {"schema = 1\ncolumns = \n", "views.toml:2"}}) {
         write("views.toml", text);
@@ -342,7 +342,7 @@ TEST_F(ViewsSourceTest, BadDescriptions) {
     EXPECT_THAT(refused(folder / "empty"), HasSubstr("views.toml"));
     write("view_0001.png");  // the number 1 again
     write("views.toml", good);
-    EXPECT_THAT(refused(folder), HasSubstr("has the number of"));
+    EXPECT_THAT(refused(folder), HasSubstr("has the same number as"));
 }
 
 }  // namespace

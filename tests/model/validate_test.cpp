@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"panel.subpixel", "but panel.subpixels is \"none\"", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.subpixels = SubpixelLayout::none; d.panel.subpixel_cell.reset(); }},
     Case{"panel.subpixel_cell", "is missing", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.subpixel_cell.reset(); }},
     Case{"panel.subpixel", "is missing", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom.clear(); }},
-    Case{"panel.subpixel", "no rectangle shines in \"g\"", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom.erase(d.panel.custom.begin() + 1); }},
+    Case{"panel.subpixel", "no rectangle emits \"g\"", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom.erase(d.panel.custom.begin() + 1); }},
     Case{"panel.subpixel.1.rect", "has no area", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom[1].rect[2] = 0.7; }},
     Case{"panel.subpixel.1.pixel", "outside of the cell of 3 x 2", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom[1].pixel = {3, 0}; }},
     Case{"panel.subpixel.1.rect", "overlaps panel.subpixel.0", [](Display& d) { d.panel = with_subpixels(d.panel, SubpixelLayout::custom); d.panel.custom[1].rect[0] = 0.4; }},
@@ -133,13 +133,13 @@ INSTANTIATE_TEST_SUITE_P(Ranges, Fault, testing::Values(
     Case{"array.count", "allowed is 1000000 mm", [](Display& d) { d.array.count = {1, big}; }},
     Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"square\"; take \"rectangle\"", [](Display& d) { d.array.pitch_mm = {12, 9}; }},
     Case{"array.pitch_mm[1]", "is -9", [](Display& d) { d.array.lattice = LatticeKind::rectangle; d.array.pitch_mm = {12, -9}; }},
-    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 9 mm; at most 4.5", [](Display& d) { d.array.lattice = LatticeKind::rectangle; d.array.pitch_mm = {12, 9}; }},
+    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 9 mm; give at most 4.5", [](Display& d) { d.array.lattice = LatticeKind::rectangle; d.array.pitch_mm = {12, 9}; }},
     Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"hexagon\"; take \"brick\"", [](Display& d) { d.array.lattice = LatticeKind::hexagon; d.array.pitch_mm = {12, 9}; }},
     Case{"array.pitch_mm", "is [12, 9], but array.lattice is \"strips\"", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.pitch_mm = {12, 9}; }},
     Case{"array.count", "is [43, 24], but strips are one row; give [43, 1]", [](Display& d) { d.array.lattice = LatticeKind::strips; }},
     Case{"array.count", "5000000000 x 9000000000 = 45", [](Display& d) { d.array.count.reset(); d.array.pitch_mm = 1e-6; d.panel.pixels = {500, 900}; d.panel.pixel_pitch_mm = 10; d.lens.kind = IdealLens{{}, 15.7}; d.array.aperture = Aperture::cell; }},
     Case{"array.slant_deg", "is 90, allowed is more than -90 to below 90", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.slant_deg = 90; }},
-    Case{"array.slant_deg", "turn such an array by array.rotation_deg", [](Display& d) { d.array.slant_deg = 9; }},
+    Case{"array.slant_deg", "rotate that lattice by array.rotation_deg", [](Display& d) { d.array.slant_deg = 9; }},
     Case{"array.slant_deg", "both array.slant_deg and array.rotation_deg", [](Display& d) { d.array.lattice = LatticeKind::strips; d.array.count.reset(); d.array.slant_deg = 9; d.array.rotation_deg = -9; }},
     Case{"panel.layer.0.index", "is 0.9, allowed is 1 to 4", [](Display& d) { d.panel.layers = {{1, 0.9}}; }},
     Case{"panel.layer.1.thickness_mm", "is 0", [](Display& d) { d.panel.layers = {{1, 1.5}, {0, 1.5}}; }},
@@ -184,21 +184,21 @@ INSTANTIATE_TEST_SUITE_P(Lens, Fault, testing::Values(
     Case{"lens.stop_radius_mm", "holes of neighbours overlap", [](Display& d) { d.lens.stop_radius_mm = 7; }, example_surfaces},
     Case{"array.surround", "make them equal", [](Display& d) { d.array.surround = Surround::clear; d.lens.as<SurfaceLens>().surfaces[0].semi_aperture_mm = 5; }, example_surfaces},
     Case{"lens.surface.0.semi_aperture_mm", "wider than array.pitch_mm", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[0].semi_aperture_mm = 6.5; }, example_surfaces},
-    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12 mm; at most 6", [](Display& d) { d.lens.kind = Pinhole{6.1}; d.array.lattice = LatticeKind::strips; d.array.count.reset(); }},
+    Case{"lens.aperture_radius_mm", "wider than array.pitch_mm = 12 mm; give at most 6", [](Display& d) { d.lens.kind = Pinhole{6.1}; d.array.lattice = LatticeKind::strips; d.array.count.reset(); }},
     Case{"array.aperture", "a hole in a black sheet", [](Display& d) { d.lens.kind = Pinhole{1}; d.array.aperture = Aperture::cell; }},
     Case{"lens.stop_radius_mm", "is a stop; leave it out", [](Display& d) { d.lens = {Pinhole{1}, 0.5}; }},
     Case{"array.surround", "a lens of type \"pinhole\" has no glass", [](Display& d) { d.lens.kind = Pinhole{1}; d.array.surround = Surround::clear; }},
     // conic edge: 1/(c sqrt(1 + k)) = 1/(0.25 * 1) = 4 mm
     Case{"lens.surface.1.semi_aperture_mm", "ends 4 mm from the axis", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1] = {-0.25, 0, {}, 6, 0, 1}; }, example_surfaces},
-    Case{"lens.surface.1.semi_aperture_mm", "sag grows to", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1].even_asphere = {1e4}; }, example_surfaces},
-    Case{"lens.surface.0.distance_mm", "cross within the aperture; at least 2.48997", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[0].distance_mm = 1; }, example_surfaces},
+    Case{"lens.surface.1.semi_aperture_mm", "sag reaches", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[1].even_asphere = {1e4}; }, example_surfaces},
+    Case{"lens.surface.0.distance_mm", "cross within the aperture; give at least 2.48997", [](Display& d) { d.lens.as<SurfaceLens>().surfaces[0].distance_mm = 1; }, example_surfaces},
     Case{"array.surround", "a lens of type \"ideal\" has no glass", [](Display& d) { d.array.surround = Surround::plate; }, example_ideal},
     Case{"array.surround", "the lens has 3", [](Display& d) { d.array.surround = Surround::clear; d.lens.as<SurfaceLens>().surfaces.insert(d.lens.as<SurfaceLens>().surfaces.begin(), {0, 0, {}, 6, 1, 1.6}); }, example_surfaces}));
 
 INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
-    Case{"array.gap_mm", "into the panel; at least 2.786", [](Display& d) { d.array.gap_mm = 1; }},
-    Case{"array.gap_mm", "into the panel's layers; at least 19.7866", [](Display& d) { d.panel.layers = {{17, 1}}; }},
-    Case{"array.base_z_mm", "4 mm puts the lens's lowest point 1 mm into the panel's layers; at least 5 mm", [](Display& d) {
+    Case{"array.gap_mm", "into the panel; give at least 2.786", [](Display& d) { d.array.gap_mm = 1; }},
+    Case{"array.gap_mm", "into the panel's layers; give at least 19.7866", [](Display& d) { d.panel.layers = {{17, 1}}; }},
+    Case{"array.base_z_mm", "4 mm puts the lens's lowest point 1 mm into the panel's layers; give at least 5 mm", [](Display& d) {
         d.panel.layers = {{3, 1.5}, {2, 1.6}}; d.array.gap_mm.reset(); d.array.base_z_mm = 4; }},
     // a meniscus whose principal planes lie far below it
     Case{"array.base_z_mm", "in front of the panel", [](Display& d) {
@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(Layout, Fault, testing::Values(
         d.lens.as<SurfaceLens>().surfaces[0].curvature_per_mm = 0.12, d.lens.as<SurfaceLens>().surfaces[1].curvature_per_mm = 0.14;
     }, example_surfaces},
     // the vertex plane is in the middle of a concave cup whose rim stands 10 - 8 = 2 mm higher
-    Case{"diffuser.distance_mm", "reach 2 mm above the vertex plane", [](Display& d) {
+    Case{"diffuser.distance_mm", "extend 2 mm above the vertex plane", [](Display& d) {
         d.lens.as<SurfaceLens>().surfaces[1] = {0.1, 0, {}, 6, 0, 1};
         d.diffuser = Diffuser{1.5, {2, 2}};
     }, example_surfaces},
@@ -239,13 +239,13 @@ INSTANTIATE_TEST_SUITE_P(Errors, Fault, testing::Values(
     Case{"errors.table", "gives tilts", [](Display& d) { d.errors.given = one_lens({{}, 0, {0, 0.1}, 0}); }, example_plate},
     Case{"errors.curvature_sd", "no curvature; leave it out", [](Display& d) { d.errors.curvature_sd = 0.01; }, example_pinhole},
     Case{"errors.table", "gives curvatures", [](Display& d) { d.errors.given = one_lens({{}, 0, {}, 0.01}); }, example_pinhole},
-    Case{"errors.gap_mm", "glued on", [](Display& d) { d.errors.gap_mm = 0.1; }, example_glued},
-    Case{"errors.wedge_deg", "glued on", [](Display& d) { d.errors.wedge_deg = {0, 0.1}; }, example_glued},
-    Case{"errors.bow_mm", "glued on", [](Display& d) { d.errors.bow_mm = 0.1; }, example_glued},
-    Case{"errors.height_sd_mm", "glued on", [](Display& d) { d.errors.height_sd_mm = 0.01; }, example_glued},
-    Case{"errors.tilt_sd_deg", "glued on", [](Display& d) { d.errors.tilt_sd_deg = 0.1; }, example_glued},
-    Case{"errors.table", "glued on", [](Display& d) { d.errors.given = one_lens({{}, 0.01, {}, 0}); }, example_glued},
-    Case{"errors.gap_mm", "into the panel; less", [](Display& d) { d.errors.gap_mm = -14; }},
+    Case{"errors.gap_mm", "glued", [](Display& d) { d.errors.gap_mm = 0.1; }, example_glued},
+    Case{"errors.wedge_deg", "glued", [](Display& d) { d.errors.wedge_deg = {0, 0.1}; }, example_glued},
+    Case{"errors.bow_mm", "glued", [](Display& d) { d.errors.bow_mm = 0.1; }, example_glued},
+    Case{"errors.height_sd_mm", "glued", [](Display& d) { d.errors.height_sd_mm = 0.01; }, example_glued},
+    Case{"errors.tilt_sd_deg", "glued", [](Display& d) { d.errors.tilt_sd_deg = 0.1; }, example_glued},
+    Case{"errors.table", "glued", [](Display& d) { d.errors.given = one_lens({{}, 0.01, {}, 0}); }, example_glued},
+    Case{"errors.gap_mm", "into the panel; give less", [](Display& d) { d.errors.gap_mm = -14; }},
     Case{"errors.bow_mm", "into the panel", [](Display& d) { d.errors.bow_mm = -14; }},
     Case{"errors.decenter_sd_mm", "at most 0.6 mm", [](Display& d) { d.errors.decenter_sd_mm = 0.201; }},
     Case{"errors.curvature_sd", "would not reach the rim", [](Display& d) { d.errors.curvature_sd = 0.08; }},

@@ -148,7 +148,7 @@ def as_others_are_built(rng, description):
             array["count"][1] = 1
             array.pop("rotation_deg", None)
             array["slant_deg"] = float(slant)
-            if hole < 0.5:  # as without a count: the least that cover the panel, with corners that reach far over it
+            if hole < 0.5:  # as without a count: the smallest number that covers the panel, with corners that reach far over it
                 wide, high = np.array(description["panel"]["pixels"]) * description["panel"]["pixel_pitch_mm"]
                 turn = math.radians(abs(slant))
                 array["count"][0] = math.ceil((wide * math.cos(turn) + high * math.sin(turn)) / array["pitch_mm"])

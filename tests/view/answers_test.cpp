@@ -216,7 +216,7 @@ TEST_F(AnswersTest, FiguresAreThoseOfTheory) {
         if (figure["name"] == "fov_deg") {
             found = true;
             EXPECT_EQ(figure["value"], theory(display, resolve(display)).along[0].fov_deg);
-            EXPECT_EQ(figure["label"], "field of view of one lens, where an eye may move");
+            EXPECT_EQ(figure["label"], "field of view of one lens, in which an eye may move");
             EXPECT_EQ(figure["unit"], "degrees");
             EXPECT_EQ(figure["doc"], "2 atan(p / 2g)");
         }

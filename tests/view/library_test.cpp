@@ -215,7 +215,7 @@ TEST_F(LibraryTest, WhatIsWrongIsToldByKey) {
                             "camera.resolution.0=9", "glass_catalogues=[\"/etc/passwd\"]", "glass_catalogues.0=a.agf",
                             "content.object=none", "content.object.0.model=/etc/passwd", "content.object.0.image=/etc/passwd",
                             "content.object.0={image=\"a.png\"}", "content.object=[{image=\"/etc/passwd\"}]"})
-        EXPECT_THAT(problem_with(set).what, StartsWith("is not for set")) << set;
+        EXPECT_THAT(problem_with(set).what, StartsWith("cannot be set")) << set;
     Wanted inside_display;
     inside_display.eye_mm = {0, 0, 1};
     EXPECT_EQ(problem_of([&] { all.display(inside_display); }).where, "camera.position_mm");
@@ -262,7 +262,7 @@ TEST_F(LibraryTest, NoKeyOpensAVisitorsFile) {
                 (value.key.names_file ? of_files : overrides).push_back(before + secret + after);
         }
     }
-    for (const std::string& set : of_files) EXPECT_THAT(told(set), HasSubstr("is not for set"));
+    for (const std::string& set : of_files) EXPECT_THAT(told(set), HasSubstr("cannot be set"));
     std::vector<std::string> of_none;
     for (const std::string& set : overrides) of_none.push_back(told(set));
     std::ofstream(secret) << "password=hunter2,b\n";

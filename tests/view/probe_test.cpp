@@ -67,7 +67,7 @@ TEST(Probe, CountsLensesFromTheUpperLeft) {
 TEST(Probe, SaysWhereNothingIsSeen) {
     const Display d = small({"camera.frame_width_mm=500"});
     EXPECT_FALSE(probe(d, {0, 0}).lens);
-    EXPECT_THAT(probe(d, {0, 0}).says, HasSubstr("No lens lets light of the panel through here"));
+    EXPECT_THAT(probe(d, {0, 0}).says, HasSubstr("No lens transmits light of the panel here"));
     const Probe up = probe(small({"camera.target_mm=[0, 1000, 600]", "camera.up=[0, 0, 1]"}), {0.5, 0.5});
     EXPECT_TRUE(up.fan.empty());
     EXPECT_THAT(up.says, HasSubstr("does not reach the display"));

@@ -19,27 +19,28 @@ constexpr MeasureNeeds scene{.scene = true}, point_images{.point_images = true},
     scene_and_images{.scene = true, .point_images = true};
 
 constexpr Measure all[] = {
-    {"components", "Components", "What each part of the display does to a picture, and what they show together.",
+    {"components", "Components", "Pictures through the lens array alone, through the diffuser alone, and of the whole display.",
      "the component tests of the 2019 paper", components_steps, measure_components, scene},
-    {"directions", "Views from around", "What the display shows from the side and from above, beside the scene itself.",
+    {"directions", "Views from several directions", "Views of the display from the side and from above, beside the scene itself.",
      "pictures by ray tracing; photographs of the scene by the same camera", directions_steps, measure_directions, scene},
-    {"fov", "Field of view", "From which angles the display shows the scene as it is, horizontally and vertically.",
+    {"fov", "Field of view", "The range of angles from which the display shows the scene correctly, horizontally and vertically.",
      "SSIM thresholds of the 2019 paper; Wang et al. 2004 for SSIM; theory 2 atan(p / 2g)", fov_steps, measure_fov, scene},
-    {"dof", "Depth of field", "At which depths from the lenses a scene is shown sharply.",
+    {"dof", "Depth of field", "The range of depths, from the lenses, in which a scene is shown sharply.",
      "SSIM thresholds of the 2019 paper; spot sizes by ray tracing; paraxial theory", dof_steps, measure_dof, scene_and_images},
-    {"zone", "Viewing zone", "From where all of the screen shows its own views, and not those of neighbouring lenses.",
-     "Rays traced from viewers' positions; paraxial theory", zone_steps, measure_zone},
-    {"crosstalk", "Crosstalk", "How much light of other views, and of what the other eye should see, an eye sees.",
+    {"zone", "Viewing zone",
+     "The region from which every lens of the screen shows its own elemental image, not a neighbouring lens's.",
+     "rays traced from viewers' positions; paraxial theory", zone_steps, measure_zone},
+    {"crosstalk", "Crosstalk", "The light of other views, and of the content for the other eye, that reaches an eye.",
      "Woods 2012, IEC 62629-22-1, IDMS: 100 (leak - black) / (signal - black)", crosstalk_steps, measure_crosstalk},
-    {"mtf", "Resolution", "How fine a detail the display shows at which depth, seen from which angle.",
-     "Slanted edges after ISO 12233; theory: image of a panel pixel, paraxial spot and diffuser", mtf_steps, measure_mtf,
+    {"mtf", "Resolution", "The finest detail that the display shows, by depth and viewing angle.",
+     "slanted edges after ISO 12233; theory: image of a panel pixel, paraxial spot and diffuser", mtf_steps, measure_mtf,
      point_images},
     {"uniformity", "Uniformity and light",
-     "How even a white screen is, over its area and over viewing angle, and how much light it passes.",
+     "The uniformity of a white screen over its area and over viewing angle, and the light efficiency.",
      "100 Lmin / Lmax; Michelson contrast; radiance theorem", uniformity_steps, measure_uniformity},
-    {"moire", "Moire", "The pattern that the lens lattice and the panel's pixels make on a white screen.",
+    {"moire", "Moire", "The moire pattern of lens lattice and panel pixels on a white screen.",
      "beats of the two lattices; contrast sensitivity by Mannos and Sakrison 1974", moire_steps, measure_moire},
-    {"spot", "Spots and distortion", "How one lens images points of the panel over field and depth, and how truly it places them.",
+    {"spot", "Spots and distortion", "The spots of one lens over field and depth, and its distortion.",
      "ray tracing by Snell's law; Welford 1986; paraxial theory D |z - L| / |L|", spot_steps, measure_spot, point_images},
 };
 
@@ -50,7 +51,7 @@ std::span<const Measure> measures() { return all; }
 std::optional<Problem> refusal(const Measure& m, const Display& d) {
     if (m.needs.point_images && d.lens.type() == LensType::pinhole)
         return Problem{"lens.type",
-                       fmt::format("is \"pinhole\", which images no point: there is nothing for {} to measure", m.name)};
+                       fmt::format("is \"pinhole\", which forms no image: there is nothing for {} to measure", m.name)};
     return {};
 }
 

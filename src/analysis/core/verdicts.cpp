@@ -145,9 +145,8 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
     const double wide = seen.width_mm.traced / g.gap_mm * (eye_distance_mm(d) - g.rear_principal_mm);
     if (!(mixed->traced > most_mixed_percent && wide > usual_eyes_apart_mm)) return {};
     return fmt::format(
-        "{} see nearly the same: crosstalk is {:.3g} %, as each lens spreads what one eye should see over {} mm there. Views "
-        "would part from {} mm on, or with lenses and a diffuser "
-        "that spread light by {:.2g} of that",
+        "{} see nearly the same: crosstalk is {:.3g} %, as each lens spreads what one eye should see over {} mm there. Views would "
+        "separate from {} mm on, or with lenses and a diffuser that spread light by {:.2g} of that",
         eyes, mixed->traced, digits(wide), digits(eye_distance_mm(d) * usual_eyes_apart_mm / wide), usual_eyes_apart_mm / wide);
 }
 
@@ -195,7 +194,7 @@ std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& w
         for (const double share : {1 / 6., 1 / 3.}) {
             Display leaning = d;
             leaning.array.slant_deg = std::atan(share) / degree;
-            if (helps(leaning)) return fmt::format("Let the strips lean (--set array.slant_deg={:.4g})", *leaning.array.slant_deg);
+            if (helps(leaning)) return fmt::format("Slant the strips (--set array.slant_deg={:.4g})", *leaning.array.slant_deg);
         }
     // No more than a quarter of the field of view, or views mix as well; and no dark bands in place of coloured ones.
     const double near = 0.5 * d.array.pitch_mm.least(), most = 0.25 * t.along[0].fov_deg;
@@ -219,7 +218,7 @@ std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& w
                     "diffuser.distance_mm={2:.3g} 'diffuser.angle_deg=[{0:.3g}, {1:.3g}]')",
                     angle[0], angle[1], distance);
         }
-    return "Use smaller pixels, or lenses and gap of which an eye sees more of the panel at once";
+    return "Use smaller pixels, or lenses and a gap through which an eye sees more of the panel at once";
 }
 
 /// Moved by half a pixel, or with a row or column more, pixels stand beside the borders.
@@ -255,8 +254,8 @@ std::optional<std::string> on_borders(const Display& d, const Geometry& g) {
     const double share = share_on_borders(d, g);
     if (!(share >= most_on_borders)) return {};
     return fmt::format(
-        "the centres of {:.0f} % of the {} lie on the border of two lenses' elemental images: both lenses show half of such a one, "
-        "and rounding decides for which of them its content is made, and so which eye is meant to see it. {}",
+        "the centres of {:.0f} % of the {} lie on the border of two lenses' elemental images: both lenses show half of each, and "
+        "rounding decides to which lens, and so to which eye, its content is assigned. {}",
         100 * share, made_by_channel(d) ? "subpixels" : "pixels", border_remedy(d));
 }
 
@@ -265,7 +264,7 @@ std::optional<std::string> on_colours(const Display& d, const Geometry& g, const
     const std::optional<ColourWave> wave = colour_wave(d, g);
     if (!wave || !(wave->visible > most_visible_contrast)) return {};
     const std::string seen = std::isinf(wave->period_mm) ? "has one tint, which changes as the eye moves"
-                                                         : fmt::format("has coloured bands {} mm wide, {:.2g} to a degree",
+                                                         : fmt::format("has coloured bands {} mm wide, {:.2g} per degree",
                                                                        digits(wave->period_mm), wave->cycles_per_degree);
     return fmt::format(
         "the lenses show the panel's red, green and blue apart: a white screen {} (red or blue against luminance: contrast "

@@ -16,14 +16,12 @@ namespace {
 
 constexpr const char* definitions[][2] = {
     {"woods_percent",
-     "Woods 2012: 100 (leak - black) / (signal - black). Signal: the view that is meant is white, all others black; leak: the "
-     "other way round."},
+     "Woods 2012: 100 (leak - black) / (signal - black). Signal: the intended view is white, all others black; leak: the reverse."},
     {"iec_62629_22_1_percent",
-     "IEC 62629-22-1: 100 times the sum over all other views i of (L_i - L_black), over L_meant - L_black; each view is white "
-     "alone in turn."},
+     "IEC 62629-22-1: 100 times the sum over all other views i of (L_i - L_black), over L_intended - L_black; one view at a time "
+     "is white."},
     {"idms_percent",
-     "IDMS (SID), chapter 17: 100 (L_KW - L_KK) / (L_WK - L_KK), first letter the view that is meant, second the others; W white, "
-     "K "
+     "IDMS (SID), chapter 17: 100 (L_KW - L_KK) / (L_WK - L_KK), first letter the intended view, second the others; W white, K "
      "black."}};
 
 /// Crosstalk where the middle of the screen is looked at, and by theory.
@@ -101,13 +99,14 @@ void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling s
         return FigureLine{.label = label,
                           .unit = "%",
                           .theory = found.theory.percent.value,
-                          .remark = "all other views together, over the one that is meant; the panel's black is 0"};
+                          .remark = "all other views together, relative to the intended one; the panel's black is 0"};
     };
     for (const auto& [name, formula] : definitions) result.add(std::string("between_views.") + name, views.middle.measured.percent);
     result.add("between_views.theory_percent", theory_figure(views.middle.theory));
     const std::string of = eyes.other ? fmt::format("; {}", made_for(sampling)) : "";
-    result.add_line(figure_of(views.middle.measured),
-                    line("Crosstalk between views, the innermost one: Woods, IEC 62629-22-1 and IDMS alike" + of, views.middle));
+    result.add_line(
+        figure_of(views.middle.measured),
+        line("Crosstalk between views, for the innermost view: by Woods, IEC 62629-22-1 and IDMS alike" + of, views.middle));
     if (!eyes.other) return;
     result.figures["between_views"]["other_sampling"]["sampling"] = name_of(*eyes.other_sampling);
     result.add("between_views.other_sampling.woods_percent", figure_of(views.middle_of_other.measured),
@@ -157,7 +156,7 @@ void curves_of_views(Eyes& eyes, double spread, Result& result) {
         for (std::size_t k = 0; k < shares.size(); ++k) shares[k][n] = share(light, first + double(k));
         theory[n] = share(eyes.theory_light(eyes.theory_at(places[n], Eyes::Lines::curve), eyes.shown), eyes.views.innermost());
     });
-    Curves curves("crosstalk_views", "Views that an eye sees", "eye's place x, mm", "share of the light", {"x_mm", places});
+    Curves curves("crosstalk_views", "Views that an eye sees", "eye position x, mm", "share of the light", {"x_mm", places});
     curves.table.name = "crosstalk_curves";
     for (std::size_t k = 0; k < shares.size(); ++k)
         curves.add(fmt::format("view {:+g}", first + double(k)), fmt::format("view_{:+g}_share", first + double(k)), shares[k]);
@@ -188,17 +187,17 @@ Result measure_crosstalk(Subject& s, Job& job) {
     curves_of_views(eyes, spread, result);
     between_eyes(s, eyes, result);
     result.remarks.push_back(
-        "Crosstalk is 100 (leak - black) / (signal - black) by Woods 2012, and with the panel's black at 0 and light that adds, by "
-        "IEC 62629-22-1 and by IDMS too; luminance is averaged over the screen. A view is a strip of every elemental image one "
-        "panel pixel wide. It lights up those pixels, or subpixels where content is made for each, whose centres lie in it, and "
-        "these as a whole. Only whole views count; the leak is the light of all other views. For two eyes, left and right of the "
-        "middle of every elemental image are meant for the eyes on either side of a head in front of the screen's middle. Views "
-        "lie side by side along the panel's rows, as the eyes do, also where lenses are turned or strips lean.");
-    result.remarks.push_back(fmt::format(
-        "Paraxially an eye gathers {:.3g} views at once: lens apertures and the diffuser mix neighbouring views wherever the "
-        "central depth plane is not at the eye. That is how a light field display shows depth, and what a display of two views "
-        "must avoid. Theory leaves out aberration.",
-        spread));
+        "Crosstalk is 100 (leak - black) / (signal - black) as defined by Woods 2012; with the panel's black at 0 and additive "
+        "light the definitions of IEC 62629-22-1 and IDMS give the same value. Luminance is averaged over the screen. A view is a "
+        "strip, one panel pixel wide, of every elemental image. It consists of the whole pixels, or subpixels where content is "
+        "made for each, whose centres lie in the strip. Only whole views count; the leak is the light of all other views. For two "
+        "eyes, the left and right halves of every elemental image are intended for the two eyes of a head in front of the screen's "
+        "middle. Views lie side by side along the panel's rows, as the eyes do, also where lenses are rotated or strips slanted.");
+    result.remarks.push_back(
+        fmt::format("Paraxially an eye receives light of {:.3g} views at once: lens apertures and the diffuser mix neighbouring "
+                    "views wherever the central depth plane is not at the eye. A light field display shows depth in this way; a "
+                    "display of two views must avoid it. Theory leaves out aberration.",
+                    spread));
     return result;
 }
 

@@ -26,8 +26,8 @@ struct Leak {
 };
 
 inline constexpr const char* left_to_rounding =
-    "centres of pixels lie on the border of two lenses' elemental images: rounding decides which lens has them, and what is meant "
-    "for which eye; lfdsim check has the remedy";
+    "centres of pixels lie on the border of two lenses' elemental images: rounding decides to which lens, and so to which eye, "
+    "they are assigned; lfdsim check states the remedy";
 
 inline FigureValue figure_of(const Crosstalk& found) {
     return {std::vector{found.percent.value}, std::vector{found.percent.error}, found.left_to_rounding ? left_to_rounding : ""};

@@ -98,13 +98,13 @@ Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
     std::size_t n = all.middle();
     if (!allowed(all.found[n])) {
         const bool rounding = worse(all.found[n]).left_to_rounding;
-        found.missing = rounding ? left_to_rounding : "the rule does not hold even in the middle";
+        found.missing = rounding ? left_to_rounding : "the criterion is not met even in the middle";
         return found;
     }
     const std::size_t last = side < 0 ? 0 : all.places.size() - 1;
     while (n != last && allowed(all.found[n + std::size_t(side)])) n += std::size_t(side);
     if (n == last) {
-        found.missing = fmt::format("the rule still holds at {:.4g}, where the search ended", all.places[n]);
+        found.missing = fmt::format("the criterion is still met at {:.4g}, where the search ended", all.places[n]);
         return found;
     }
     double good = all.places[n], bad = all.places[n + std::size_t(side)];
@@ -156,7 +156,7 @@ void add_eyes(const Eyes& eyes, const Heads& all, ContentSampling sampling, Resu
             return FigureLine{.label = fmt::format("Crosstalk between the eyes, {} eye, head in the middle{}", name, of),
                               .unit = "%",
                               .theory = theory.percent.value,
-                              .remark = "what is meant for the other side of the head, over what is meant for its own"};
+                              .remark = "light intended for the other eye, relative to light intended for this one"};
         };
         const Crosstalk &middle = all.found[all.middle()][side], &of_other = all.of_other[side];
         result.add(path, figure_of(middle), line(eyes.other ? fmt::format("; {}", made_for(sampling)) : "", all.theory));
@@ -179,7 +179,7 @@ void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     if (apart > zone_mm) return tell_apart(s, eyes, zone_mm, result);
     const Heads all = look_with_heads(eyes, apart);
     add_eyes(eyes, all, s.display().content.sampling, result);
-    Curves curves("crosstalk_eyes", "Crosstalk between the two eyes", "head's place x, mm", "leak / signal, %",
+    Curves curves("crosstalk_eyes", "Crosstalk between the two eyes", "head position x, mm", "leak / signal, %",
                   {"head_mm", all.places});
     for (const std::size_t side : {0u, 1u}) {
         const std::string name = side == 0 ? "left" : "right";
@@ -194,9 +194,9 @@ void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     if (const double theory = all.theory.percent.value; theory <= 100)
         curves.plot.marks.push_back({"theory, head in the middle", theory, false});
     result.add("between_eyes.head_within_10_percent_mm", figure_of(range),
-               {.label = "Head's places where both eyes have at most 10 % crosstalk",
+               {.label = "Head positions at which both eyes have at most 10 % crosstalk",
                 .unit = "mm",
-                .remark = "the panel's picture stays; searched to 1.5 eye distances"});
+                .remark = "with an unchanged panel picture; searched to 1.5 eye distances"});
     result.add(std::move(curves));
 }
 

@@ -84,7 +84,7 @@ Bracket bracket(const OwnLens& lens, const EyePath& path, int side, std::span<co
     if (std::isnan(middle)) return {nan, nan, "no light of lenses whose whole elemental image lies on the panel is seen"};
     if (middle < 0.5)
         return {nan, nan,
-                fmt::format("the share is only {:.2f} in the middle: elemental images are made for another distance than the "
+                fmt::format("the share is only {:.2f} in the middle: elemental images are made for a distance other than the "
                             "eye's, or for another array",
                             middle)};
     for (double in = 0; in < path.most;) {
@@ -93,7 +93,7 @@ Bracket bracket(const OwnLens& lens, const EyePath& path, int side, std::span<co
         if (share < 0.5) return {in, out, {}};
         in = out;
     }
-    return {nan, nan, fmt::format("the share stays above one half as far as {:.4g}, where the search ends", path.most)};
+    return {nan, nan, fmt::format("the share stays above one half up to {:.4g}, where the search ends", path.most)};
 }
 
 /// The place between them where the share falls below a level, or steps farther on either side: other lines of sight may fall

@@ -54,12 +54,13 @@ void add_geometry(Result& result, const std::string& name, const std::string& wa
                {.label = fmt::format("Field of view, {}", way),
                 .unit = "deg",
                 .theory = theory,
-                .remark = "of the light from lenses whose whole image lies on the panel, half comes from their own images"});
+                .remark = "up to the angles at which half of the light, of lenses whose whole image lies on the panel, comes from "
+                          "their own images"});
     result.add(name + ".own_lens_with_diffuser_deg", figure_of(interval(diffused)),
                {.label = fmt::format("Field of view, {}: with the diffuser", way),
                 .unit = "deg",
                 .theory = theory,
-                .remark = "the same light, turned by the diffuser"});
+                .remark = "up to the same share of light, scattered by the diffuser"});
 }
 
 void add_likeness(Result& result, const std::string& name, const std::string& way, const AngleCurves& curves,
@@ -69,7 +70,7 @@ void add_likeness(Result& result, const std::string& name, const std::string& wa
     };
     const double low = diffused.at[0], high = diffused.at[1];
     const Falls expected{std::isnan(low) ? -edge_deg : low, std::isnan(high) ? edge_deg : high, reach_deg};
-    FigureLine edge = line("edge", "where the scene's share in the view falls half-way; beside it the edge by geometry");
+    FigureLine edge = line("edge", "where the scene's share in the view has fallen half-way; beside it the edge by geometry");
     edge.theory = std::vector{expected.low, expected.high};
     result.add(name + ".gradient_edge_deg", figure_of(where_it_falls(curves.share, expected)), edge);
     const SsimIntervals content(curves.content, expected), screen(curves.screen, expected);
@@ -80,21 +81,21 @@ void add_likeness(Result& result, const std::string& name, const std::string& wa
     const auto add_line = [&](const Interval& found, const std::string& what, const std::string& remark) {
         result.add_line(figure_of(found), line(what, remark));
     };
-    add_line(content.half_way, "SSIM of the content half-way down",
-             "early by up to half the diffuser's angle: SSIM falls with the first ghost");
+    add_line(content.half_way, "SSIM of the content fallen half-way",
+             "too small by up to half the diffuser's angle: SSIM falls with the first ghost");
     add_line(content.ssim, fmt::format("SSIM of the content {} or more", least_view_ssim),
-             "the published rule, where the content is");
+             "the published criterion, on the content's rectangle");
     add_line(screen.ssim, fmt::format("SSIM of the whole screen {} or more", least_view_ssim),
-             "the same with the background, which raises it where it is black in both pictures");
-    add_line(content.gradient, fmt::format("slope of the content's SSIM of {} a degree or less", most_slope_per_deg),
-             "the published rule, which ends before the edge where steps are of a degree");
+             "with the background, which raises SSIM where it is black in both pictures");
+    add_line(content.gradient, fmt::format("slope of the content's SSIM of {} per degree or less", most_slope_per_deg),
+             "the published criterion, which ends before the edge with steps of one degree");
     // The views that are nearest to the axis, mostly on it.
     const std::vector<double>& angles = curves.content.at;
     const auto middle = std::ranges::min_element(angles, {}, [](double a) { return std::abs(a); });
     const auto at_middle = [&](const Curve& c) { return Estimate{c.value[std::size_t(middle - angles.begin())], c.error}; };
     result.add(name + ".middle_ssim", at_middle(curves.content),
                {.label = fmt::format("Likeness, {}: SSIM of the content at {:.3g} degrees", way, *middle),
-                .remark = fmt::format("of the whole screen {:.4g}, which a background that is black in both pictures raises",
+                .remark = fmt::format("{:.4g} for the whole screen, raised by a background that is black in both pictures",
                                       at_middle(curves.screen).value)});
     result.add(name + ".content.middle_ssim", at_middle(curves.content));
     result.add(name + ".screen.middle_ssim", at_middle(curves.screen));
@@ -130,15 +131,15 @@ void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>&
         const std::string why = r.missing[0].empty() ? r.missing[1] : r.missing[0];
         size.push_back(r.at[1] - r.at[0]);
         error.push_back(std::hypot(r.error[0], r.error[1]));
-        result.add_line({Estimate{size.back(), error.back()}, why},
-                        {.label = axis == 0 ? "Eyebox, width" : "Eyebox, height",
-                         .unit = "mm",
-                         .theory = theory(axis),
-                         .remark = hexagon && axis == 1
-                                       ? "theory: from corner to corner of the hexagons' images; the lenses' blur takes light from "
-                                         "corners first"
-                                       : fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images",
-                                                     s.viewing_distance_mm())});
+        result.add_line(
+            {Estimate{size.back(), error.back()}, why},
+            {.label = axis == 0 ? "Eyebox, width" : "Eyebox, height",
+             .unit = "mm",
+             .theory = theory(axis),
+             .remark = hexagon && axis == 1 ? "theory: from corner to corner of the hexagons' images; the lenses' blur removes "
+                                              "light from the corners first"
+                                            : fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images",
+                                                          s.viewing_distance_mm())});
         if (!why.empty()) missing = why;
     }
     result.figures["eyebox_mm"] = numbers_json(size);
@@ -216,15 +217,16 @@ Result measure_fov(Subject& subject, Job& job) {
                         "the scene is not its own mirror image, and different parts of it are compared on either side.",
                         aside));
     if (depth != described)
-        result.remarks.push_back(fmt::format(
-            "The scene stands at {:.4g} mm here: at {:.4g} mm, as described, it would not be seen against the screen from "
-            "all of these places, or an eye would stand in it.",
-            depth, described));
+        result.remarks.push_back(
+            fmt::format("The scene is at {:.4g} mm here: at {:.4g} mm, as described, it would not be seen against the screen from "
+                        "all of these positions, or an eye would be inside it.",
+                        depth, described));
     result.remarks.push_back(
-        "The field of view is the geometric one: it depends on no content, picture or step. SSIM is that of the content, "
-        "the rectangle about it: a background that is black in both pictures raises the whole screen's. Aberration, the diffuser's "
-        "blur and the panel's pixels lower it everywhere, the repeated views beyond the edge suddenly. "
-        "So its edge should lie where geometry puts it, and the published thresholds rate the picture's quality.");
+        "The field of view is the geometric one: it depends on no content, picture or step. SSIM is evaluated on the rectangle "
+        "around the content, because a background that is black in both pictures raises the SSIM of the whole screen. Aberration, "
+        "the diffuser's blur and the panel's pixels lower SSIM at all angles; beyond the edge the repeated views lower it "
+        "suddenly. Its edge should therefore lie where geometry puts it, while the published thresholds rate the picture's "
+        "quality.");
     return result;
 }
 

@@ -40,7 +40,7 @@ Limit first_below(const Curve& c, double centre, int side, double level) {
         value = next_value;
     }
     Limit none;
-    none.missing = fmt::format("the rule still holds at {:.4g}, where the search ended", at);
+    none.missing = fmt::format("the criterion is still met at {:.4g}, where the search ended", at);
     none.holds_to = at;
     none.searched_out = true;
     return none;
@@ -49,7 +49,7 @@ Limit first_below(const Curve& c, double centre, int side, double level) {
 Interval about(const Curve& c, double centre, double level) {
     if (value_at(c, std::clamp(centre, c.at.front(), c.at.back())) < level) {
         Limit none;
-        none.missing = "the rule does not hold even in the middle";
+        none.missing = "the criterion is not met even in the middle";
         return {none, none, true};
     }
     return known({first_below(c, centre, -1, level), first_below(c, centre, 1, level)}, centre);
@@ -75,12 +75,13 @@ Limit fall(const Curve& c, double expected, double reach, int side) {
         if (beyond > reach && beyond <= 3 * reach) outside.push_back(c.value[k]);
     }
     if (inside.size() < 2 || outside.size() < 2) {
-        none.missing = fmt::format("too few views on both sides of the edge expected at {:.4g}", expected);
+        none.missing = fmt::format("there are too few views on both sides of the edge expected at {:.4g}", expected);
         return none;
     }
     const double top = median(inside), bottom = median(outside), level = 0.5 * (top + bottom);
     if (top - bottom < std::max(0.02, 5 * c.error)) {
-        none.missing = fmt::format("no clear fall about the edge expected at {:.4g}: from {:.3f} to {:.3f}", expected, top, bottom);
+        none.missing =
+            fmt::format("there is no clear fall about the edge expected at {:.4g}: from {:.3f} to {:.3f}", expected, top, bottom);
         return none;
     }
     std::optional<Limit> found;
@@ -93,7 +94,7 @@ Limit fall(const Curve& c, double expected, double reach, int side) {
         if (c.value[from] >= level) found = crossing(c, c.at[from], c.value[from], c.at[to], c.value[to], level);
     }
     if (crossings != 1 || !found || std::abs(found->at - expected) > reach) {
-        none.missing = fmt::format("it crosses the middle of the fall expected at {:.4g} {}", expected,
+        none.missing = fmt::format("the curve crosses the middle of the fall expected at {:.4g} {}", expected,
                                    crossings != 1 ? fmt::format("{} times", crossings) : "elsewhere");
         return none;
     }
@@ -107,8 +108,8 @@ Interval known(Interval i, double centre) {
     for (Limit* limit : {&i.low, &i.high})
         if (limit->error > 0 && limit->error >= std::abs(limit->at - centre)) {
             std::string missing =
-                fmt::format("it ends at {:.4g}, which is no farther from the middle, {:.4g}, than its error of {:.2g}", limit->at,
-                            centre, limit->error);
+                fmt::format("the interval ends at {:.4g}, which is no farther from the middle, {:.4g}, than its error of {:.2g}",
+                            limit->at, centre, limit->error);
             *limit = {nan, nan, std::move(missing), limit->at};
         }
     return i;

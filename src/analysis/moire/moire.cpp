@@ -61,14 +61,15 @@ struct WaveFigure {
     Estimate WaveEstimates::*of;
     const char *label, *unit, *remark;
 };
-constexpr WaveFigure wave_figures[] = {{"period_mm", &WaveEstimates::period_mm, "period", "mm",
-                                        "in the vertex plane, of the strongest component after the eye's filter"},
-                                       {"direction_deg", &WaveEstimates::direction_deg, "direction", "deg",
-                                        "of the wave vector, counter-clockwise from the right; 180 is 0"},
-                                       {"contrast", &WaveEstimates::seen, "contrast to the eye", "",
-                                        "Michelson's, times contrast sensitivity over its greatest (Mannos and Sakrison 1974)"},
-                                       {"contrast_unfiltered", &WaveEstimates::contrast, "contrast before the eye", "",
-                                        "theory: of lenses without aberrations; others blur the pixels"}};
+constexpr WaveFigure wave_figures[] = {
+    {"period_mm", &WaveEstimates::period_mm, "period", "mm",
+     "in the vertex plane, of the strongest component after the eye's filter"},
+    {"direction_deg", &WaveEstimates::direction_deg, "direction", "deg",
+     "direction of the wave vector, counter-clockwise from the right, modulo 180"},
+    {"contrast", &WaveEstimates::seen, "contrast to the eye", "",
+     "Michelson contrast times the contrast sensitivity relative to its maximum (Mannos and Sakrison 1974)"},
+    {"contrast_unfiltered", &WaveEstimates::contrast, "contrast before the eye", "",
+     "theory: for lenses without aberrations; aberrations blur the pixels"}};
 
 void add_wave(Result& result, const std::string& path, const WaveEstimates& wave, bool with_errors, const std::string& missing) {
     for (const WaveFigure& f : wave_figures) {
@@ -108,9 +109,8 @@ Pattern pattern_of(const WhiteLines& lines, const HarmonicLines& harmonics, cons
     }
     pattern.found.seen.error = pattern.found.contrast.error = pattern.search.least;
     pattern.missing = fmt::format(
-        "no wave with 3 periods or more in the middle of the screen, {:.3g} x {:.3g} mm, has more than the contrast {:.2g}, which "
-        "the "
-        "noise of the lines of sight allows to see",
+        "no wave with 3 periods or more in the middle of the screen, {:.3g} x {:.3g} mm, has more than the contrast {:.2g}, the "
+        "least that the noise of the sampled lines of sight allows to detect",
         lines.window().width_mm(), lines.window().height_mm(), pattern.search.least);
     return pattern;
 }
@@ -128,8 +128,8 @@ void remark_on(const Pattern& pattern, const std::optional<Beat>& theory, double
     }
     if (theory && 3 * period_mm(theory->frequency) > side)
         result.remarks.push_back(
-            "Theory's wave is too long to be measured: less than three of its periods are in the part of the screen that is looked "
-            "at.");
+            "The wave predicted by theory is too long to be measured: less than three of its periods are in the evaluated part of "
+            "the screen.");
 }
 
 /// Luminance, and the channels if they differ.
@@ -148,7 +148,7 @@ Result measure_moire(Subject& s, Job& job) {
     Result result;
     result.figures["viewing_distance_mm"] = distance;
     result.remarks.push_back(
-        "A grey screen has the same pattern: all of its pixels shine alike, so period, direction and contrast are those of white.");
+        "A grey screen has the same pattern: all of its pixels emit alike, so period, direction and contrast are those of white.");
     if (shines_all_over(d.panel)) {
         const std::string none = "the panel has no pixel structure: it has no subpixels, and panel.aperture_ratio is 1";
         const WaveEstimates found = Pattern().found, theory = theory_wave({});
@@ -176,9 +176,10 @@ Result measure_moire(Subject& s, Job& job) {
         const Pattern pattern = pattern_of(lines[mixture], HarmonicLines(ends, screen, mixture), theory,
                                            mm_per_degree(distance - s.geometry().vertex_plane_mm));
         add_wave(result, "white" + of, pattern.found, true, pattern.missing);
-        add_wave(result, "theory" + of, theory_wave(theory), false,
-                 fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve, or next to nothing",
-                             eye_limit_cycles_per_degree));
+        add_wave(
+            result, "theory" + of, theory_wave(theory), false,
+            fmt::format("all beats are finer than {:g} cycles per degree, which eyes do not resolve, or of negligible contrast",
+                        eye_limit_cycles_per_degree));
         if (!all) continue;
         double side = std::min(window.width_mm(), window.height_mm());
         remark_on(pattern, theory, side, result);

@@ -85,11 +85,11 @@ Result measure_components(Subject& s, Job& job) {
             picture(diffuser_alone(d, s.geometry()), board(coarse).summed(), s.rendering(), {}, job));
     else
         result.remarks.push_back("The display has no diffuser.");
-    add("view", "What the whole display shows of the scene", picture(d, s.panel(job), s.rendering(), {}, job));
+    add("view", "The scene as the whole display shows it", picture(d, s.panel(job), s.rendering(), {}, job));
     const int columns = int(d.camera.resolution[0]), rows = int(d.camera.resolution[1]);
     const Rect near = middle(columns, rows, columns / 6, rows / 6);
     Image close = picture(d, s.panel(job), s.rendering(), near, job);
-    add("view-close", "The middle sixth of it", enlarged(close, std::max(1, 960 / close.width)));
+    add("view-close", "The middle sixth of the same picture", enlarged(close, std::max(1, 960 / close.width)));
     {
         Quiet quiet(job);
         const Picture elemental = shown_content(d, s.geometry(), s.scene(), s.threads(), quiet).picture;

@@ -61,15 +61,16 @@ Result measure_directions(Subject& s, Job& job) {
         std::move(photographs.begin(), photographs.end(), std::back_inserter(simulated));
         result.pictures.push_back(
             {"directions-" + axis,
-             fmt::format("Views along the {} circle from {:.3g} to {:.3g} degrees, and the scene itself from there", axis, -most,
-                         most),
+             fmt::format("Views along the {} circle from {:.3g} to {:.3g} degrees, and the scene itself from the same positions",
+                         axis, -most, most),
              contact_sheet(simulated, labels, views)});
         job.advance(3);
     }
-    Animation strip{"directions",
-                    fmt::format("The camera moves to and fro between {:.3g} and {:.3g} degrees: display and scene", -most, most),
-                    {},
-                    0.1};
+    Animation strip{
+        "directions",
+        fmt::format("The camera moves back and forth between {:.3g} and {:.3g} degrees: display and scene", -most, most),
+        {},
+        0.1};
     const Display tiny = sized(s.display(), strip_width);
     for (int k = 0; k < frames; ++k) {
         const double angle = most * std::sin(2 * 3.14159265358979323846 * k / frames);

@@ -79,10 +79,9 @@ Region content_region(const Display& d, const Geometry& g, const ContentScene& s
 void refuse_depth_in_lenses(const Geometry& g, double depth_mm, const std::string& where) {
     const double bottom = g.base_z_mm - g.vertex_plane_mm, top = g.top_z_mm - g.vertex_plane_mm;
     if (depth_mm < bottom || depth_mm >= top) return;  // content may stand on them
-    throw InputError(where,
-                     fmt::format("{} puts the model's centre inside the lenses, which stand from {:.4g} to {:.4g} mm; give a "
-                                 "depth in front of or behind them",
-                                 depth_mm, bottom, top));
+    throw InputError(where, fmt::format("{} puts the model's centre inside the lenses, which extend from {:.4g} to {:.4g} mm; give "
+                                        "a depth in front of or behind them",
+                                        depth_mm, bottom, top));
 }
 
 Rect screen_box(const Region& screen) {

@@ -81,16 +81,16 @@ PlotBar add_rules(Result& result, const std::string& region, const Curve& curve,
     PlotBar bar{"by likeness", {}};
     for (const bool in_front : {false, true}) {
         const std::string name = in_front ? "in_front_mm" : "behind_mm";
-        const Interval side = on_side_of_zero(both, in_front, "no depth on this side of the lenses keeps the rule");
+        const Interval side = on_side_of_zero(both, in_front, "no depth on this side of the lenses meets the criterion");
         const FigureValue found = figure_of(side);
         spans[name] = side.empty ? Json() : numbers_json(found.numbers);
         spans[name + "_error"] = side.empty ? Json() : numbers_json(found.errors);
         if (!found.missing.empty()) result.note("by_likeness." + name, found.missing);
-        result.add_line(found,
-                        {.label = fmt::format("Depth of field by likeness, {} the lenses", in_front ? "in front of" : "behind"),
-                         .unit = "mm",
-                         .remark = "the published rule: SSIM of the content is 0.85 or more and changes by 0.02 a centimetre "
-                                   "or less"});
+        result.add_line(
+            found,
+            {.label = fmt::format("Depth of field by likeness, {} the lenses", in_front ? "in front of" : "behind"),
+             .unit = "mm",
+             .remark = "the published criterion: SSIM of the content is 0.85 or more and changes by 0.02 per centimetre or less"});
         const auto end = [](const Limit& l, double beyond) { return l.searched_out ? beyond : l.place(); };
         if (!side.empty) bar.spans.push_back({end(side.low, -infinity), end(side.high, infinity)});
     }
@@ -121,7 +121,7 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
     result.add("resolution.at_the_lenses_per_degree", cycles_per_degree(g, by_lens(0), 0, eye));
     result.add("resolution.at_the_content_per_mm", at_content);
     result.add("resolution.at_the_content_per_degree", per_degree);
-    result.add_line({}, {.label = "Resolution where the content stands: limit of lenses and pixels",
+    result.add_line({}, {.label = "Resolution at the content's depth: limit of lenses and pixels",
                          .unit = "cycles per degree",
                          .theory = per_degree,
                          .remark = fmt::format("{:.4g} cycles per mm, {:.4g} mm in front of the lenses", at_content, z)});
@@ -192,13 +192,11 @@ Result measure_dof(Subject& s, Job& job) {
         add_resolution(s, result, run.depths_mm);
     }
     result.remarks.push_back(
-        "Three questions have three answers. By the lens: where a point's image is no wider than the lenses stand apart; it "
-        "contains "
-        "the lenses, and what is shown there is as fine as they are. By the pixel: where the lens blurs less than the panel's "
-        "pixels "
-        "are wide; at the lenses these have no width, so that no lens is that sharp there. By likeness: where pictures of the "
-        "content "
-        "look like it. Depths behind the lenses are negative; in front of them all end at the viewer.");
+        "Depth of field is stated by three criteria. By the lens: depths at which a point's image is no wider than the lens pitch; "
+        "they include the lenses' own plane, where detail is as fine as the lenses. By the pixel: depths at which the lens's blur "
+        "is no wider than the image of a panel pixel; that image has no width in the lenses' plane, so no lens is that sharp "
+        "there. By likeness: depths at which pictures of the display resemble the content. Depths behind the lenses are negative; "
+        "in front of the lenses all ranges end at the viewer.");
     return result;
 }
 

@@ -49,7 +49,7 @@ DepthRun dof_depths(const Subject& s) {
     high = std::max(high, g.top_z_mm - g.vertex_plane_mm + 0.1 * g.gap_mm);  // through the lenses
     low = std::min(low, 1.01 * (g.base_z_mm - g.vertex_plane_mm) - 0.1 * g.gap_mm);
     const Reach most = reach(s);
-    DepthRun run{{}, "a quarter beyond what theory calls sharp, or as far as that makes sense, ends there", {}};
+    DepthRun run{{}, "the searched range, a quarter beyond what theory calls sharp or less, ends there", {}};
     run.why_high = run.why_low;
     if (low < most.behind) low = most.behind, run.why_low = "beyond it the scene looks too small";
     if (high > most.before) high = most.before, run.why_high = "beyond it the scene reaches the eye";

@@ -123,13 +123,11 @@ void show_edge_fringes(const Subject& s, double depth_mm, const std::vector<doub
         labels.push_back(fmt::format("edge, {:.3g}\xc2\xb0", angle));
     }
     const double exposure = expose_together({&pictures[0], &pictures[1], &pictures[2], &pictures[3]});
-    result.pictures.push_back(
-        {"mtf-edge",
-         fmt::format(
-             "A black and white edge {}, {:g} lenses wide, beside what should be seen, as bright as white is in the mean; light "
-             "times {:.3g}",
-             depth_in_words(depth_mm), lenses_near_by, exposure),
-         contact_sheet(pictures, labels, 2)});
+    result.pictures.push_back({"mtf-edge",
+                               fmt::format("A black and white edge {}, {:g} lenses wide, beside the ideal edge at the mean "
+                                           "brightness of white; light times {:.3g}",
+                                           depth_in_words(depth_mm), lenses_near_by, exposure),
+                               contact_sheet(pictures, labels, 2)});
 }
 
 }  // namespace lfdsim

@@ -22,7 +22,7 @@ namespace lfdsim {
 namespace {
 
 constexpr const char* across_alone =
-    "strips do not image along themselves: there a picture is as fine as the panel's pixels at any depth";
+    "strips do not image along their axes: in that direction a picture is as fine as the panel's pixels at any depth";
 constexpr std::array levels{std::pair{"mtf50", 0.5}, std::pair{"mtf10", 0.1}};
 
 /// Adds NAME and NAME_error of red, green and blue.
@@ -67,13 +67,13 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
     if (!m.has_theory())
         for (const char* name : {"theory_mtf50", "theory_resolution"})
             result.note(fmt::format("{}.{}", path, name),
-                        fmt::format("{:.3g} % of the light is seen on other lenses' elemental images, which theory leaves out",
+                        fmt::format("{:.3g} % of the light comes from other lenses' elemental images, which theory leaves out",
                                     100 * m.astray));
     if (!r.missing.empty()) return result.note(path, r.missing);
     for (const auto& [name, level] : levels) {
         const double last = m.frequencies_per_mm.back();
-        const std::string never =
-            fmt::format("modulation is never below {:.0f} % as far as was measured, {:.4g} per mm", 100 * level, last);
+        const std::string never = fmt::format(
+            "modulation is never below {:.0f} % up to the highest frequency measured, {:.4g} per mm", 100 * level, last);
         const auto reason =
             [&, at = level](std::initializer_list<LimitingFrequency> figures) -> std::string {  // empty: none is missing
             for (const LimitingFrequency& of : figures)
@@ -81,8 +81,8 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
                     return std::isnan(of.least)
                                ? never
                                : fmt::format(
-                                     "modulation grazes {:.0f} %: within its error it falls below it from {:.4g} per mm on, "
-                                     "or never as far as was measured, {:.4g} per mm",
+                                     "modulation stays near {:.0f} %: within its error it falls below that from {:.4g} per mm on, "
+                                     "or not up to the highest frequency measured, {:.4g} per mm",
                                      100 * at, of.least, last);
             return {};
         };
@@ -111,9 +111,9 @@ void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
     if (remark.empty()) {
         remark = fmt::format("{:.4g} cycles per degree, limited by {}", r.per_mm.value * m.mm_per_deg, r.limited_by);
         if (std::isnan(mtf50))
-            remark += "; MTF is not surely below one half as far as was measured";
+            remark += "; MTF is not clearly below one half up to the highest frequency measured";
         else if (mtf50 > r.per_mm.value)
-            remark += fmt::format("; MTF50 by itself is {:.4g} per mm", mtf50);
+            remark += fmt::format("; MTF50 alone is {:.4g} per mm", mtf50);
         if (r.per_mm.value < 0.9 * r.theory_per_mm)
             remark += "; aberrations and light through other lenses blur more than paraxial theory predicts";
     }
@@ -223,10 +223,10 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
 
     result.remarks.push_back(
         "Resolution is MTF50 or, where lower, half a cycle per lens pitch or per image of a panel pixel: finer detail is aliased. "
-        "Per degree as seen from the eye. The display is seen by a pinhole, so that neither an eye's optics nor its focus enters. "
-        "MTF is that of lines of sight through all of the screen; edges in pictures, which are a sample of places, stand beside "
-        "it. Lenses that show a point of the plane at different places blur the mean edge; how the picture breaks up at lens "
-        "borders is not included.");
+        "Values per degree are as seen from the eye. The display is seen through a pinhole, so that neither the optics nor the "
+        "focus of an eye enters. MTF is that of lines of sight through the whole screen; MTF of edges in pictures, which sample "
+        "some positions, is given for comparison. Lenses that show a point of the plane at different positions blur the mean edge; "
+        "the discontinuities of the picture at lens borders are not included.");
     if (is_strips(s.display().array))
         result.remarks.push_back(fmt::format("Resolution is that across the strips: {}.", across_alone));
     result.remarks.push_back(remark_on_channels(all));
@@ -244,9 +244,8 @@ void check(const Subject& s, const std::vector<double>& depths, const std::vecto
     const double most = 0.9 * (eye.z_mm() - g.vertex_plane_mm);
     for (const double z : depths)
         if (z > most)
-            throw InputError(
-                "--depths-mm",
-                fmt::format("{:.6g} puts edges about where the eye is; depths up to {:.4g} mm are seen well", z, most));
+            throw InputError("--depths-mm",
+                             fmt::format("{:.6g} puts edges near the eye; depths up to {:.4g} mm can be measured", z, most));
 }
 
 }  // namespace

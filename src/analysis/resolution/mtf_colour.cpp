@@ -76,7 +76,7 @@ void tell_mtf_of_colours(std::span<const MtfCurves* const> at_depth, Result& res
     if (!first) return;
     for (std::size_t c = 0; c < 3; ++c) {
         const Estimate mtf50 = first->below(0.5, c).found;
-        result.add_line({mtf50, "MTF is not surely below one half as far as was measured"},
+        result.add_line({mtf50, "MTF is not clearly below one half up to the highest frequency measured"},
                         {.label = fmt::format("MTF50 of {} at {:.4g} mm, {}, {:.3g} degrees", colour_of_channel[c], first->depth_mm,
                                               first->direction.told, first->angle_deg),
                          .unit = "per mm",
@@ -88,7 +88,7 @@ void tell_mtf_of_colours(std::span<const MtfCurves* const> at_depth, Result& res
                                           last->direction.told, last->angle_deg),
                      .unit = "mm",
                      .theory = std::vector{theory_from_green(*last, 0), theory_from_green(*last, 2)},
-                     .remark = "of what is shown, in the mean over the screen: the width of an edge's coloured fringe"});
+                     .remark = "shift of the colours shown, mean over the screen: the width of an edge's coloured fringe"});
     result.plots.push_back(colour_plot(*first, "mtf_colour"));
     if (last != first) result.plots.push_back(colour_plot(*last, "mtf_colour_aside"));
 }
@@ -96,8 +96,8 @@ void tell_mtf_of_colours(std::span<const MtfCurves* const> at_depth, Result& res
 std::string remark_on_channels(std::span<const MtfCurves> all) {
     for (const MtfCurves& m : all)
         if (!m.channels.empty())
-            return "MTF is that of the luminance; red, green and blue are traced where they shine on the panel and at their own "
-                   "wavelengths.";
+            return "MTF is that of the luminance; red, green and blue are traced from their positions on the panel and at their "
+                   "own wavelengths.";
     return "Red, green and blue are alike: the model has neither dispersion nor subpixels.";
 }
 

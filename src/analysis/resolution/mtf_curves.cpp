@@ -98,7 +98,7 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
     else if (!(m.spread_mm > 0))
         m.missing = "no light of elemental images is seen there";
     else if (spread.width_mm(1 - most_lost) > 2 * seen_half_mm(s.display(), s.geometry(), plane, eye)[0])
-        m.missing = "light is spread there over more of the plane than the screen shows";
+        m.missing = "the light is spread over more of that plane than the screen shows";
 
     // To the first zero of a pixel's image or, where the blur is far wider, to where next to nothing is left
     const Blur by_theory = blur(s.display(), s.geometry(), s.theory(), plane.z_mm, angle_deg);

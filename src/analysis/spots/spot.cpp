@@ -67,7 +67,7 @@ Plot diagram(const Subject& s, const LensTrace& lens, const LensField& field, co
     const Bundle light = bundle(lens, field.panel, shown_rays);
     Plot plot{fmt::format("spot_{}", field.name),
               fmt::format("Spots of one lens, {}", field.title),
-              "mm; the depths side by side",
+              "mm; one depth beside the other",
               "mm",
               {},
               {},
@@ -176,7 +176,7 @@ void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
                     {.label = "Distortion of the elemental image: largest",
                      .unit = "pixel images",
                      .theory = 0.,
-                     .remark = "how far a panel pixel's light lands from where the elemental images place it; theory has none"});
+                     .remark = "distance of a panel pixel's light from where the elemental images place it; theory predicts none"});
     result.add_line(rms, {.label = "Distortion of the elemental image: RMS", .unit = "pixel images", .theory = 0.});
 }
 
@@ -209,7 +209,7 @@ Result measure_spot(Subject& s, Job& job) {
             {.label = fmt::format("Full width of the spot on the axis, {:.4g} mm in front of the lenses", z + from_vertex),
              .unit = "mm",
              .theory = D * std::abs(std::isinf(L) ? 1 : z / L - 1),
-             .remark = "theory is paraxial: what differs is aberration"});
+             .remark = "theory is paraxial: the difference is aberration"});
     }
     const double middle = depths[depths.size() / 2];
     for (const LensField& f : fields)
@@ -225,8 +225,7 @@ Result measure_spot(Subject& s, Job& job) {
     if (fields.front().light.rays.empty())
         result.remarks.push_back("No light of the panel point on a lens's axis gets through it.");
     if (s.display().array.surround != Surround::opaque)
-        result.remarks.push_back(
-            "Spots are those of one lens by itself: light through walls and through other lenses is left out.");
+        result.remarks.push_back("Spots are those of one isolated lens: light through walls and through other lenses is left out.");
     return result;
 }
 

@@ -97,7 +97,7 @@ class Teller {
                     value.missing = !found->missing.empty() ? found->missing : "no depth on this side of the lenses is sharp";
                 for (std::size_t k = 0; k < 2; ++k)
                     if (value.errors[k] > std::abs(value.numbers[k])) {
-                        value.missing = fmt::format("an end at {:.4g} mm has an error of {:.2g} mm, more than itself",
+                        value.missing = fmt::format("an end at {:.4g} mm has an error of {:.2g} mm, which is larger",
                                                     value.numbers[k], value.errors[k]);
                         value.numbers[k] = value.errors[k] = nan;
                     }
@@ -239,8 +239,8 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
     tell.by_lens(fan, s.display().array.pitch_mm[axis] * pitch_scale(s.display().errors), sharp_by_lens(s.display(), g, t, eye));
     tell.by_pixel("by_pixel", "spot_diopters", "by the pixel", fan, 0, by_pixel,
-                  "where the spot of the panel's point on the axis, traced, is no wider than a pixel's image; theory is paraxial: "
-                  "where they differ the lens's aberrations are the cause");
+                  "where the traced spot of a panel point on the axis is no wider than a pixel's image; theory is paraxial, so "
+                  "differences come from the lens's aberrations");
     result.add("spot_best_mm", depth_mm(traced.best_per_mm) + g.rear_principal_mm - g.vertex_plane_mm);
     result.add("spot_least_pixel_images", traced.least_width / tell.pixel_slope());
     if (fan.all.empty())
@@ -256,8 +256,8 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
                   2.44 * wavelength_mm / D, by_pixel, "2.44 wavelength z / D, added in quadrature");
     const auto [near, far] = quarter_wave_per_mm(t.central_depth_mm, D, wavelength_mm);
     result.add("diffraction_quarter_wave_diopters", std::vector{1000 * near, 1000 * far});
-    tell.tell("by_quarter_wave", "by a quarter of a wave, of a perfect lens", {}, range_of_inverse(g, near, far, eye),
-              "where defocus begins to show beside diffraction; pixels coarser than the Airy disk allow more");
+    tell.tell("by_quarter_wave", "by a quarter of a wave, for a perfect lens", {}, range_of_inverse(g, near, far, eye),
+              "where defocus becomes visible beside diffraction; pixels larger than the Airy disk allow more");
     return traced;
 }
 

@@ -151,7 +151,7 @@ TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double ey
     constexpr double alike = 0.003;
     if (d.array.surround != Surround::opaque && std::abs(seen.real - seen.paraxial) > alike * seen.paraxial)
         return {nan,
-                "the lenses are so steep that part of the light leaves them by their walls, for which there is no simple theory"};
+                "the lenses are so steep that part of the light leaves through their walls, for which there is no simple theory"};
     return {seen.real, ""};
 }
 

@@ -21,13 +21,12 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
     const double greatest = screen.greatest();
     const Estimate mean = screen.mean(), percent = screen.uniformity_percent(false), inside = screen.uniformity_percent(true);
     const TheoryFigure theory = luminance_over_panel(s.display(), g, distance);
-    result.add(
-        "screen.luminance_over_panel", mean,
-        {.label = "Luminance of the screen on axis over the panel's",
-         .theory = {theory.value, theory.missing},
-         .theory_path = "screen.theory_luminance_over_panel",
-         .remark = "mean over the screen; theory: of lines of sight that aim at the array, the share that a lens leads to the "
-                   "panel, times what its surfaces let through"});
+    result.add("screen.luminance_over_panel", mean,
+               {.label = "Luminance of the screen on axis over the panel's",
+                .theory = {theory.value, theory.missing},
+                .theory_path = "screen.theory_luminance_over_panel",
+                .remark = "mean over the screen; theory: the share of lines of sight towards the array that a lens directs to the "
+                          "panel, times the transmittance of its surfaces"});
     result.add("screen.least_over_panel", screen.least());
     result.add("screen.greatest_over_panel", greatest);
     result.add("screen.uniformity_percent", percent,
@@ -35,9 +34,9 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
     result.add("screen.uniformity_inner_percent", inside,
                {.label = "Uniformity on axis, middle 80 % of width and height",
                 .unit = "%",
-                .remark = "the least there over the greatest of all"});
+                .remark = "minimum in that part over the maximum of the whole screen"});
     if (std::isnan(mean.value)) result.note("screen.luminance_over_panel", "the eye sees no panel through the array");
-    const std::string few = "none of the parts that luminance is compared for has half of itself in front of the panel";
+    const std::string few = "none of the areas in which luminance is compared has half of its area in front of the panel";
     if (std::isnan(percent.value)) result.note("screen.uniformity_percent", few);
     if (std::isnan(inside.value)) result.note("screen.uniformity_inner_percent", few);
     result.maps.push_back({"uniformity_screen", "Luminance of a white screen, seen on axis", "x along the array, mm", "y, mm",
@@ -49,8 +48,8 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
     result.tables.push_back(std::move(table));
     if (s.display().diffuser && percent.value < 90)
         result.remarks.push_back(
-            "The diffuser turns lines of sight near the array's border past it, so the border is dim; the figure for the middle "
-            "leaves it out.");
+            "The diffuser scatters lines of sight near the array's border past the array, so the border is dim; the figure for the "
+            "middle 80 % excludes it.");
 }
 
 void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
@@ -59,7 +58,7 @@ void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     const double half[] = {lattice.pitch[0] / 2, lattice.pitch[lattice.strips ? 0 : 1] / 2};
     Plot plot{"uniformity_bands",
               "Luminance across one lens pitch, seen on axis",
-              "place from the lens's axis, mm",
+              "position from the lens's axis, mm",
               "of the panel's",
               {}};
     DataTable table{"uniformity_bands", {}};
@@ -99,9 +98,10 @@ void add_angles(Result& result, Subject& s, const EyeRays& rays, double distance
                   [&](int k) { light[std::size_t(k)] = total(luminance.at(axis, angles[std::size_t(k)])) / independent_sets; });
         FigureValue half(luminance.half_deg(axis, angles, light, -1), luminance.half_deg(axis, angles, light, 1));
         if (std::isnan(half.numbers[0] + half.numbers[1]))
-            half.missing = light[angles.size() / 2] > 0
-                               ? fmt::format("more than half as far as eyes can be, or to {:.0f} degrees", angles.back())
-                               : "the screen is dark on axis";
+            half.missing =
+                light[angles.size() / 2] > 0
+                    ? fmt::format("luminance stays above half up to where eyes can be, or to {:.0f} degrees", angles.back())
+                    : "the screen is dark on axis";
         result.add("angle." + name + "_half_luminance_deg", half,
                    {.label = fmt::format("Half the luminance on axis, {}", name),
                     .unit = "deg",
@@ -122,9 +122,9 @@ void add_budget(Result& result, const std::array<LightBudget, independent_sets>&
     };
     result.add("light.efficiency", share(&LightBudget::leaves, &LightBudget::reaches_array),
                {.label = "Light efficiency",
-                .remark = "of the panel's light that reaches the array: what leaves to the viewer's side, in any direction"});
+                .remark = "share of the panel's light reaching the array that leaves to the viewer's side, in any direction"});
     result.add("light.efficiency_within_fov", share(&LightBudget::leaves_in_fov, &LightBudget::reaches_array),
-               {.label = "Light efficiency within the field of view", .remark = "what leaves with slopes within p/2g"});
+               {.label = "Light efficiency within the field of view", .remark = "share that leaves with slopes within p/2g"});
     result.add("light.efficiency_of_panel", share(&LightBudget::leaves, &LightBudget::emitted));
     result.add("light.share_reaching_array", share(&LightBudget::reaches_array, &LightBudget::emitted));
 }
@@ -151,8 +151,9 @@ Result measure_uniformity(Subject& s, Job& job) {
     tell_colour_uniformity(s, distance, parts, result);
     show_white_fringes(s, job, result);
     result.remarks.push_back(
-        "A lens passes on the panel's radiance: luminance falls only by reflection and where lines of sight end beside a lens or "
-        "the panel. Light efficiency is a different measure: light leaves in all directions, most of it to where no viewer is.");
+        "A lens conserves the panel's radiance: luminance is lost only by reflection and where lines of sight end beside a lens or "
+        "the panel. Light efficiency is a different measure: light leaves in all directions, most of it to where there is no "
+        "viewer.");
     return result;
 }
 

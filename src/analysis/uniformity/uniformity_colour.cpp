@@ -83,7 +83,7 @@ void add_spread(Result& result, const std::string& name, const std::string& of, 
         const std::string path = fmt::format("colour.{}_delta_uv_{}", name, kind);
         result.add(path, difference,
                    {.label = fmt::format("Colour of white {}: {} difference", of, kind),
-                    .remark = "distance in u', v' (CIE 1976) from the colour of all this light together; 0.004 is just seen"});
+                    .remark = "distance in u', v' (CIE 1976) from the mean colour of this light; 0.004 is just noticeable"});
         if (std::isnan(spread.together[0])) result.note(path, missing);
     }
 }
@@ -237,7 +237,8 @@ void tell_colour_uniformity(const Subject& s, double distance, Parts& parts, Res
         for (const char* of : {"screen", "horizontal", "vertical"})
             for (const char* kind : {"largest", "mean"}) result.add(fmt::format("colour.{}_delta_uv_{}", of, kind), Estimate{0, 0});
         result.remarks.push_back(
-            "Colour is exactly even: without subpixels and dispersion red, green and blue take the same paths to the same places.");
+            "Colour is exactly uniform: without subpixels and dispersion red, green and blue take the same paths to the same "
+            "points.");
         return;
     }
     const ColouredWhite white(s);

@@ -18,7 +18,7 @@ void add_maps(Result& result, const std::vector<SightShares>& shares, const std:
     const auto add = [&](const char* name, const char* title, double SightShares::*share) {
         std::vector<double> values;
         for (const SightShares& s : shares) values.push_back(s.*share);
-        result.maps.push_back({name, title, "viewer's place x, mm", "y, mm", "share", -half[0], half[0], -half[1], half[1], side,
+        result.maps.push_back({name, title, "viewer position x, mm", "y, mm", "share", -half[0], half[0], -half[1], half[1], side,
                                side, std::move(values), 0, 1});
     };
     add("zone", missing, &SightShares::wrong);
@@ -35,7 +35,7 @@ void add_maps(Result& result, const std::vector<SightShares>& shares, const std:
 /// Horizontally and vertically, as far as `half` mm.
 void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const std::array<double, 2>& half, double distance) {
     const double eye = distance - s.geometry().rear_principal_mm;
-    Plot plot{"zone", missing, "viewer's place, degrees", "share of rays", {}};
+    Plot plot{"zone", missing, "viewer position, degrees", "share of rays", {}};
     DataTable table{"zone", {}};
     const auto degrees = [&](double mm) { return std::atan(mm / eye) / degree; };
     if (is_strips(s.display().array)) result.add("vertical", FigureValue::none("strips show the same from above and from below"));
@@ -92,7 +92,7 @@ void add_axis(Result& result, ZoneSearch& search, const Subject& s, double dista
                {.label = "Viewing zone along the axis: at most 1 % of the rays wrong",
                 .unit = "mm",
                 .theory = by_theory,
-                .remark = "nearest and farthest, as far as the display's front"});
+                .remark = "nearest and farthest distance; the search ends at the display's front"});
     result.add("distance.wrong_50_percent_mm", figure_of(zone.limits[1]));
     result.add("distance.theory_mm", by_theory);
     Series near{"on axis", {}, {}};
@@ -143,13 +143,12 @@ Result measure_zone(Subject& s, Job& job) {
     const double spread = SlopeSpread(s, eye).width() * s.geometry().gap_mm, image = s.theory(0).elemental_pitch_mm;
     if (const std::string aside = aside_remark(result.figures); !aside.empty()) result.remarks.push_back(aside);
     result.remarks.push_back(fmt::format(
-        "A ray is wrong if it comes through a lens and ends elsewhere than on that lens's elemental image: on another's, so that "
-        "views repeat, or on none. Where all are wrong but few are mixed (show another neighbour's image than most do) a repeated "
-        "zone "
-        "begins. Theory follows the ray through each lens's centre to a place within p/2 of the image's centre. "
-        "An eye gathers light from {:.3g} mm of the panel through one lens (its aperture and the diffuser, paraxially), so the "
-        "limit at 1 % lies nearer to the middle, that at 50 % does not; images {:.4g} mm wide, {:.3f} p, put both farther out. "
-        "Whole pixels and the lenses' aberrations account for the rest.",
+        "A ray is wrong if it passes through a lens and ends outside that lens's elemental image: on another lens's image, so that "
+        "views repeat, or on none. Where all rays are wrong but few are mixed (they show another neighbour's image than most rays "
+        "do), a repeated zone begins. In theory the ray through each lens's centre meets the panel within p/2 of the image's "
+        "centre. An eye receives light from {:.3g} mm of the panel through one lens (its aperture and the diffuser, paraxially), "
+        "which moves the limit at 1 % nearer to the middle, but not that at 50 %; images {:.4g} mm wide, {:.3f} p, move both "
+        "outwards. Whole pixels and the lenses' aberrations account for the rest.",
         spread, image, image / s.display().array.pitch_mm[0]));
     return result;
 }

@@ -24,13 +24,13 @@ Limit limit(const std::vector<double>& places, const std::vector<double>& wrong,
     };  // by one set; NaN: nothing is seen, which is not good
     Limit none;
     if (!first_good(middle)) {
-        none.missing = "more are wrong even in the middle";
+        none.missing = "more rays are wrong even in the middle";
         return none;
     }
     int in = middle;
     while (in != last && first_good(in + step)) in += step;
     if (in == last) {
-        none.missing = "no more are wrong as far as was searched";
+        none.missing = "no more rays are wrong within the searched range";
         return none;
     }
     double precision = 0;

@@ -124,7 +124,7 @@ void run(const BenchArguments& args) {
 
 CommandSpec bench_command() {
     return {.name = "bench",
-            .summary = "Measures how fast this machine renders, what each feature costs, and error against time",
+            .summary = "Measures this machine's rendering speed, the cost of each feature, and error against time",
             .examples =
                 "Examples:\n  lfdsim bench --quick\n  lfdsim bench rendering kernels --threads 1\n"
                 "  lfdsim bench estimators --display displays/desktop-asphere.toml displays/desktop-ideal.toml --json",

@@ -100,7 +100,7 @@ void compare(const ColourCase& pair, const Duty& estimator, Bench& bench) {
 }  // namespace
 
 void bench_colour(Bench& bench) {
-    bench.heading("Colour: time of a picture over that of the same without, the middle rows of 3840 x 2160");
+    bench.heading("Colour: time of a picture relative to that without the feature, the middle rows of 3840 x 2160");
     for (const ColourCase& pair : pairs)
         for (const Duty& estimator : estimators_of_colour)
             if (!bench.cancelled()) compare(pair, estimator, bench);

@@ -74,7 +74,9 @@ void compare(const Duty& array, const Texels& panel, Bench& bench) {
 }  // namespace
 
 void bench_errors(Bench& bench) {
-    bench.heading("Errors of single lenses: time of points over that of the same array without, the middle rows of 3840 x 2160");
+    bench.heading(
+        "Errors of single lenses: time of point samples relative to that of the same array without errors, the middle rows of 3840 "
+        "x 2160");
     const Texels panel = noise_panel(bench_display());
     for (const Duty& array : arrays)
         if (!bench.cancelled()) compare(array, panel, bench);

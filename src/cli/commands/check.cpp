@@ -19,7 +19,7 @@ struct CheckArguments {
     Command command;
     DisplayOptions display{command, {camera_options, sample_options, content_options}};
     Flag json = command.flag("--json", "Print results as JSON, with all keys");
-    Flag all = command.flag("--all", "Print all keys, those with their defaults too");
+    Flag all = command.flag("--all", "Print all keys, including those that have their defaults");
 };
 
 std::string text_of(const Json& value) {
@@ -121,9 +121,7 @@ void run(const CheckArguments& args) {
 CommandSpec check_command() {
     return {
         .name = "check",
-        .summary =
-            "Validates a description; prints what is wrong with it and its remedies, the derived lengths, the paraxial theory, and "
-            "its keys",
+        .summary = "Validates a description; prints errors, warnings and remedies, derived lengths, paraxial theory, and the keys",
         .examples = "Example:\n  lfdsim check display.toml --set array.gap_mm=17",
         .run = with_options<CheckArguments>(run)};
 }

@@ -75,7 +75,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     for (const Option& output : {difference_, overlay_})
         if (output.given()) faults.of([&] { check_output(output.text(), output.name()); });
     if (!overlay_.empty() && overlay_.text() == difference_.text())
-        faults.of([] { throw InputError("--overlay, --difference", "are two pictures of one name; give two names"); });
+        faults.of([] { throw InputError("--overlay, --difference", "name the same file; give two names"); });
     faults.report();
     faults.of([&] {
         view = read_image(view_path, Encoding::srgb);

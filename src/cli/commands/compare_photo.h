@@ -21,13 +21,12 @@ class PhotoOptions {
     static constexpr const char* four = "X,Y X,Y X,Y X,Y";
 
     Command command_;
-    List corners_ =
-        command_
-            .list("--corners", four,
-                  "B is a photograph of the display: the outer corners of its lens array there (of the part that is lit, "
-                  "where the array reaches over the panel), in pixels from the upper left corner of the picture as viewers "
-                  "show it; top left, top right, bottom right, bottom left of the screen as its viewer sees it")
-            .expected(1, 4);
+    List corners_ = command_
+                        .list("--corners", four,
+                              "B is a photograph of the display: the outer corners of its lens array there (of the lit part, where "
+                              "the array extends beyond the panel), in pixels from the upper left corner of the picture as viewers "
+                              "show it; top left, top right, bottom right, bottom left of the screen as its viewer sees it")
+                        .expected(1, 4);
     List view_corners_ =
         command_
             .list("--view-corners", four,
@@ -38,7 +37,8 @@ class PhotoOptions {
     Flag fit_blur_ = command_.flag("--fit-blur", "Blur A by the Gaussian that makes it most similar to the photograph");
     Option overlay_ =
         command_.option("-o,--overlay", "FILE", "Picture to write: both side by side, as a checkerboard and half of each");
-    Option difference_ = command_.option("--difference", "FILE", "Picture to write: where the photograph is brighter or darker");
+    Option difference_ =
+        command_.option("--difference", "FILE", "Picture to write: where the photograph is brighter (red) or darker (blue)");
 };
 
 /// The encoding of the option --encoding.

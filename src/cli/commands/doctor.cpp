@@ -121,7 +121,7 @@ void run(const DoctorArguments& args) {
 
 CommandSpec doctor_command() {
     return {.name = "doctor",
-            .summary = "Reports what was found on this machine, and what is missing",
+            .summary = "Reports the optional parts found on this machine, and those missing",
             .examples = "Example:\n  lfdsim doctor",
             .run = with_options<DoctorArguments>(run)};
 }

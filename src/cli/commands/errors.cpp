@@ -50,7 +50,7 @@ void run(const ErrorsArguments& args) {
 
 CommandSpec errors_command() {
     return {.name = "errors",
-            .summary = "Writes the errors of all lenses, drawn and of errors.table together, as a table",
+            .summary = "Writes a table of the errors of all lenses: the random ones plus those of errors.table",
             .examples = "Example:\n  lfdsim errors display.toml --set errors.decenter_sd_mm=0.005 errors.seed=7 -o lenses.csv",
             .run = with_options<ErrorsArguments>(run)};
 }

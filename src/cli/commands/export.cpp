@@ -48,7 +48,7 @@ struct ExportArguments {
                                     "Normals: those of the triangles, or the true surface's, interpolated; default flat");
     Flag replace = command.flag(
         "--replace",
-        "Write over files in the folder that are not of this display's scene; those of an earlier one by other names stay");
+        "Overwrite files in the folder that are not of this display's scene; files of an earlier scene with other names remain");
 };
 
 bool is_peer(const std::string& name) { return name == "pov" || name == "cycles" || name == "mitsuba"; }
@@ -67,7 +67,7 @@ PeerOptions options_of(const ExportArguments& args) {
     if (!args.channel.empty()) options.channel = int(std::string_view("rgb").find(args.channel.word()));
     if (args.normals.empty()) return options;
     if (args.peer.text() == "pov" && !options.triangles)
-        throw InputError("--normals", "are those of triangles; give --triangles N too");
+        throw InputError("--normals", "are those of triangles; give --triangles N, too");
     options.normals = args.normals.word() == "flat" ? MeshNormals::flat : MeshNormals::smooth;
     return options;
 }
@@ -111,7 +111,7 @@ std::string readme(const PeerScene& scene, const std::string& lfdsims) {
         "Made by: {}\n\nIts picture, {}, rendered in this folder:\n\n    {}\n\n"
         "lfdsim's picture of the same, and the comparison of both:\n\n    {}\n    lfdsim compare lfdsim.exr {} --encoding linear\n",
         scene.files.front().name, command_line(), scene.picture, scene.command, lfdsims, scene.picture);
-    text += scene.deviations.empty() ? "\nNothing deviates.\n" : "\nWhat deviates from lfdsim's model:\n\n";
+    text += scene.deviations.empty() ? "\nNothing deviates.\n" : "\nDeviations from lfdsim's model:\n\n";
     for (const std::string& deviation : scene.deviations) text += "- " + deviation + "\n";
     return text;
 }
@@ -188,7 +188,7 @@ void run(const ExportArguments& args) {
 
 CommandSpec export_command() {
     return {.name = "export",
-            .summary = "Writes the display as a scene for another renderer, for a second opinion on what it shows",
+            .summary = "Writes the display as a scene for another renderer, to check the result independently",
             .examples =
                 "Examples:\n  lfdsim export pov display.toml --panel-image eia.png --set diffuser=none -o scene\n"
                 "  lfdsim export cycles display.toml --panel-image eia.png --triangles 16380 --normals smooth -o scene\n"

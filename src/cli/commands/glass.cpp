@@ -21,7 +21,7 @@ namespace {
 struct GlassArguments {
     Command command;
     Option name = command.option("NAME", "", "Glass, such as N-BK7 or PMMA; without it all are listed");
-    Option catalogue = command.option("--catalogue", "FILE.agf", "Take glasses from a maker's catalogue first, and list those");
+    Option catalogue = command.option("--catalogue", "FILE.agf", "AGF catalogue to search first; its glasses are listed");
     Option plot = command.option("--plot", "OUT.svg", "Plot of the index in visible light");
     Flag json = command.flag("--json", "Print results as JSON");
 };
@@ -70,7 +70,7 @@ std::string text_of(const Sourced& s) {
         text += fmt::format("  {:<6} {:>9.4f} nm  {}\n", name, at["wavelength_nm"].get<double>(), text_of(at["index"], 6));
     };
     for (const auto& [name, at] : json["lines"].items()) row(name, at);
-    text += "\nn where a panel shines unless panel.wavelengths_nm says otherwise\n";
+    text += "\nn at the default wavelengths of a panel's primaries (panel.wavelengths_nm)\n";
     for (const auto& [name, at] : json["panel"].items()) row(name, at);
     return text;
 }

@@ -28,23 +28,23 @@ struct ImportArguments {
                               "Lens of Zemax (.zmx), Optiland (.json) or ray-optics (.roa), or calibration of a Looking Glass "
                               "display (visual.json)")
                       .required();
-    Flag flip = command.flag("--flip", "Turn the lens over: the side of the file's object faces the panel, not that of its image");
+    Flag flip = command.flag("--flip", "Reverse the lens: the side of the file's object faces the panel, not that of its image");
     Option scale = command.option("--scale", "S", "Factor for all lengths of the lens; default 1");
     Option gap = command.option("--gap-mm", "G",
                                 "Panel to the lens's principal plane; default: from the image in the file, or from the view cone");
-    Option pitch = command.option("--pitch-mm", "P", "From lens to lens; default: as wide as the lens");
-    Option semi_aperture =
-        command.option("--semi-aperture-mm", "R", "Of surfaces that have none in the file; default: what the file's beam needs");
+    Option pitch = command.option("--pitch-mm", "P", "Lens pitch; default: the lens's width");
+    Option semi_aperture = command.option(
+        "--semi-aperture-mm", "R", "Semi-aperture of surfaces that have none in the file; default: as the file's beam requires");
     List glasses = command
                        .list("--glass", "NAME=OTHER|ND|ND,VD",
                              "Replacement for a glass of the file: another name, an index n_d, or n_d and the Abbe number V_d")
                        .one_each();
-    List catalogues = command.list("--catalogue", "FILE.agf", "Glass catalogue, looked up before the glasses that ship").one_each();
+    List catalogues = command.list("--catalogue", "FILE.agf", "Glass catalogue, searched before the glasses that ship").one_each();
     Option panel_inch = command.option("--panel-inch", "I", "Diagonal of the panel; default 24");
     Option pixels = command.option("--pixels", "WxH", "Pixels of the panel; default 3840x2160");
-    Option distance =
-        command.option("--distance-mm", "D",
-                       "Distance from the panel to the eye; default 600, of a calibration where the panel is 14 degrees high");
+    Option distance = command.option(
+        "--distance-mm", "D",
+        "Distance from the panel to the eye; default 600, or for a calibration that at which the panel is 14 degrees high");
     Option index = command.option("--index", "N",
                                   "For a calibration, which does not describe the lenses: cylinders of this index in a sheet on "
                                   "the panel; default: lenses without aberrations, in air");
@@ -179,7 +179,7 @@ void run(const ImportArguments& args) {
 
 CommandSpec import_command() {
     return {.name = "import",
-            .summary = "Makes a description with a lens from a design program, or of a calibrated lenticular display",
+            .summary = "Writes a description with a lens from a design program, or of a calibrated lenticular display",
             .examples =
                 "Examples:\n  lfdsim import triplet.zmx --scale 0.05 -o triplet.toml\n"
                 "  lfdsim import visual.json --distance-mm 650 -o portrait.toml\n"

@@ -31,24 +31,24 @@ struct NewArguments {
                          .initially("square");
     Option fov_deg = command.option(
         "--fov-deg", "F",
-        "Field of view of whole elemental images, 2 atan(p' / 2g), of strips along the panel's rows: where an eye may move. What "
-        "it sees of the screen follows from panel and distance (lfdsim check: screen_field_deg); default 30");
+        "Field of view of whole elemental images, 2 atan(p' / 2g), in which an eye may move; for strips along the panel's rows. "
+        "The angle that the screen fills follows from panel and distance (lfdsim check: screen_field_deg); default 30");
     Option views = command.option(
         "--views", "N",
-        "Panel pixels behind a lens along a row, in place of the rule for the pitch; 2 of strips: one view for each eye");
-    Option pitch_mm = command.option("--pitch-mm", "P", "From lens to lens, in place of --views; of strips across them");
+        "Panel pixels behind a lens along a row, in place of the rule for the pitch; strips with 2: one view for each eye");
+    Option pitch_mm = command.option("--pitch-mm", "P", "Lens pitch, in place of --views; for strips across their axes");
     Option depth_mm = command.option(
         "--depth-mm", "L",
         "Central depth plane, measured from the lenses towards the eye; default D/10, or -1000 for eyes nearer than 250 mm; "
         "strips are focused on the panel");
-    Option slant_deg = command.option(
-        "--slant-deg", "A",
-        "Of strips: from the vertical, positive where upper ends lean to the viewer's right; default 18.43, 1 in 3; 0 of two "
-        "views");
-    Option sheet_mm =
-        command.option("--sheet-mm", "T", "Thickness of strips' sheet, panel to ridges, in place of --fov-deg, which follows");
-    Option eyes_mm =
-        command.option("--eye-distance-mm", "B", "Of two views: between a viewer's eyes, in place of --fov-deg; default 65");
+    Option slant_deg = command.option("--slant-deg", "A",
+                                      "Slant of strips from the vertical, positive where upper ends lean to the viewer's right; "
+                                      "default 18.43, 1 in 3; 0 for two views");
+    Option sheet_mm = command.option(
+        "--sheet-mm", "T",
+        "Thickness of the lenticular sheet, from the panel to the vertices, in place of --fov-deg, which follows from it");
+    Option eyes_mm = command.option("--eye-distance-mm", "B",
+                                    "Distance between a viewer's eyes, for two views, in place of --fov-deg; default 65");
     Option lens = command.option("--lens", "plano_convex|ideal", "Kind of lens; default plano_convex").initially("plano_convex");
 };
 

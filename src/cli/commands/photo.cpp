@@ -57,7 +57,7 @@ void run(const PhotoArguments& args) {
 
 CommandSpec photo_command() {
     return {.name = "photo",
-            .summary = "Makes the reference photograph: the model itself, seen by the same camera",
+            .summary = "Renders the reference photograph: the model itself, seen by the same camera",
             .examples =
                 "Example:\n  lfdsim photo display.toml --model monkey.blend --camera-mm 518,0,1932 -o photo.png\n"
                 "  lfdsim photo display.toml --set camera.pupil_diameter_mm=20 camera.focus_distance_mm=1800 -o blurred.png",

@@ -40,7 +40,7 @@ struct RenderArguments {
     DeviceOption device{command};
     WorkOptions work{command};
     Option kernel = command.option("--kernel", "scalar|baseline|avx2|avx512",
-                                   "Instruction set; default: environment variable LFDSIM_KERNEL, else the best there is");
+                                   "Instruction set; default: environment variable LFDSIM_KERNEL, else the best available");
     Option target_error = command.option("--target-error", "E",
                                          "Add samples until the estimated error of each 4 x 4 pixels is below E, in linear light; "
                                          "an .exr then has a layer \"error\"");

@@ -67,7 +67,7 @@ void run(const SheetArguments& args) {
 
 CommandSpec sheet_command() {
     return {.name = "sheet",
-            .summary = "Makes a contact sheet: pictures side by side, with labels",
+            .summary = "Writes a contact sheet: pictures side by side, with labels",
             .examples = "Example:\n  lfdsim sheet view.png photo.png --label \"view, 15\u00b0\" --label reference -o sheet.png",
             .run = with_options<SheetArguments>(run)};
 }

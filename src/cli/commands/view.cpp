@@ -111,7 +111,7 @@ void run(const ViewArguments& args) {
 
 CommandSpec view_command() {
     return {.name = "view",
-            .summary = "Shows the display in a browser: eye and parameters move, the picture follows",
+            .summary = "Shows the display in a browser, with interactive eye position and parameters",
             .examples =
                 "Examples:\n  lfdsim view display.toml --model monkey.blend\n"
                 "  lfdsim view display.toml --panel-image eia.png --port 8080\n"

@@ -22,8 +22,8 @@ constexpr KeyOption camera[] = {
 };
 constexpr KeyOption sample[] = {
     {"--estimator", "render.estimator", Form::word, "filtered|point|lens_by_lens",
-     "Averages of the panel over footprints where they agree with points, or brute force: one panel pixel per sample; "
-     "lens_by_lens: averages whether they agree or not"},
+     "filtered: averages of the panel over footprints where they agree with point samples; point: brute force, one panel pixel per "
+     "sample; lens_by_lens: averages whether they agree or not"},
     {"--samples", "render.samples", Form::count, "N",
      "Samples per pixel, where a diffuser, pixel filter or pupil spreads the light"},
     {"--seed", "render.seed", Form::count, "S", "Seed of the samples"},
@@ -36,13 +36,13 @@ constexpr KeyOption content[] = {
      "Tilt of the model about the horizontal axis, before the yaw; positive raises the front"},
     {"--yaw-deg", "content.yaw_deg", Form::number, "A", "Rotation of the model, counter-clockwise seen from above"},
     {"--pickup", "content.pickup", Form::word, "nodal|traced|integrated|inverse",
-     "Elemental images for a perfect lens, for where the real lens sends each pixel's light, the mean of all that light, or the "
-     "panel "
-     "picture whose views are best (on the CPU)"},
+     "Elemental images for a perfect lens; for the line on which most of a pixel's light leaves the real lens; the mean over all "
+     "of its light; or the panel picture with the best views (on the CPU)"},
     {"--eyes-mm", "content.inverse.eyes_mm", Form::box, "X,Y,Z,X,Y,Z",
-     "Inverse pick-up: opposite corners of the box in which eyes are; default: the viewing zone"},
+     "Inverse pick-up: opposite corners of the box that contains the eyes; default: the viewing zone"},
     {"--levels", "content.inverse.levels", Form::pair, "B,W",
-     "Inverse pick-up: light of the content's black and white, over a white panel's: room to subtract crosstalk in"},
+     "Inverse pick-up: light of the content's black and white relative to a white panel; a raised black leaves a margin to "
+     "subtract crosstalk"},
 };
 
 // Within the key's own range.

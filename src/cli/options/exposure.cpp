@@ -46,7 +46,7 @@ std::optional<double> ExposureOption::factor(const Display& display, const Geome
         screen = seen->intersected(Region::of(crop)).shifted(-crop.x0, -crop.y0);
     const double mean = screen.pixels() > 0 ? mean_light(r.image, screen) : 0;
     if (!(mean > 0))
-        throw InputError("--exposure", "is auto, but this picture would show no light of a white panel; give a number");
+        throw InputError("--exposure", "is auto, but this picture would be dark even with a white panel; give a number");
     return 1 / mean;
 }
 

@@ -23,14 +23,15 @@ class GridOptions {
   private:
     Command command_;
     Option width_ = command_.option("--focus-width-mm", "W", "Width of the views' focus, the rectangle without parallax");
-    Option depth_ = command_.option("--focus-depth-mm", "Z", "Its depth in front of the lenses' vertex plane");
-    Option distance_ = command_.option("--camera-distance-mm", "D", "From the views' cameras to their focus");
-    Option baseline_ = command_.option("--baseline-mm", "B|BX,BY", "From camera to camera: along x and y, or the same along both");
+    Option depth_ = command_.option("--focus-depth-mm", "Z", "Depth of the views' focus in front of the lenses' vertex plane");
+    Option distance_ = command_.option("--camera-distance-mm", "D", "Distance from the views' cameras to their focus");
+    Option baseline_ =
+        command_.option("--baseline-mm", "B|BX,BY", "Distance between neighbouring cameras: along x and y, or the same along both");
     Option cone_ = command_.option("--view-cone-deg", "A", "Angle that the cameras of a row span, in equal steps");
-    Option cameras_ = command_.option(
-        "--cone", "ends|bins",
-        "How n cameras divide that angle A: the first and last at its ends, camera i at (i/(n-1) - 1/2) A, as the makers of quilts "
-        "write (default of quilts); or each in the middle of one of n equal parts, at ((i + 1/2)/n - 1/2) A");
+    Option cameras_ = command_.option("--cone", "ends|bins",
+                                      "Division of that angle A between n cameras. ends: the first and last at its ends, camera i "
+                                      "at (i/(n-1) - 1/2) A, as makers of quilts define it (default for quilts); bins: each in the "
+                                      "middle of one of n equal parts, at ((i + 1/2)/n - 1/2) A");
 };
 
 /// The position of a grid that does not state it.

@@ -28,7 +28,7 @@ class LensMeshOptions {
     Command command_;
     Option triangles_ = command_.option("--lens-mesh", "TRIANGLES",
                                         "Replace each lens by about this number of triangles, as other renderers do "
-                                        "(docs/meshed.md); point samples, surround opaque");
+                                        "(docs/meshed.md); only with point samples and an opaque surround");
     Option normals_ = command_
                           .option("--lens-normals", "flat|smooth",
                                   "Normals: those of the triangles, or the true surface's, interpolated; default flat")

@@ -97,7 +97,7 @@ void warn_if_for_another(const std::filesystem::path& panel_image, const Metadat
         if (was != is) what += fmt::format("{}{} {}, not {}", what.empty() ? "" : "; ", key, was, is);
     };
     if (shown_places(made->display) != shown_places(display))
-        what += fmt::format("{}panel.subpixels {}, not {}, or for other places of them", what.empty() ? "" : "; ",
+        what += fmt::format("{}panel.subpixels {}, not {}, or for other positions of them", what.empty() ? "" : "; ",
                             word(made->display.panel.subpixels), word(display.panel.subpixels));
     compare_words("array.lattice", word(made->display.array.lattice), word(display.array.lattice));
     const Display& then = made->display;

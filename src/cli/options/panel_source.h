@@ -41,7 +41,7 @@ class ModelOption {
     explicit ModelOption(Command command)
         : model_(command.option("--model", "FILE",
                                 "Mesh file to show (any format Assimp reads), or built-in:spheres; default: the description's "
-                                "content.model or its objects, or the spheres where it has none")) {}
+                                "content.model or its objects, or the spheres if it has none")) {}
     bool given() const { return model_.given(); }
     /// Puts the option's file, if it is given, into the display in place of what that shows; no output may replace either. Throws
     /// InputError if it is given without a name.
@@ -73,7 +73,7 @@ class PatternOption {
     Option pattern_ = pattern_name(command_);
     Option cell_ = command_.option("--cell-pixels", "N", "Checkerboard: side of a square");
     Option view_ =
-        command_.option("--view", "X,Y", "View: position of the white one, -0.5 .. 0.5 of the elemental image from its centre");
+        command_.option("--view", "X,Y", "View: position of the white view, -0.5 .. 0.5 of the elemental image from its centre");
     Option edge_ = command_.option("--edge-deg", "A", "Edge: slant");
     Option depth_ = command_.option("--edge-depth-mm", "Z", "Edge: depth in front of the lenses' vertex plane");
 };

@@ -13,7 +13,8 @@ void check_companion(const std::filesystem::path& path, bool own, bool replace) 
     detail::check_replaceable(path);
     std::error_code none;
     if (!own && !replace && std::filesystem::exists(std::filesystem::symlink_status(path, none)))
-        throw InputError(path.string(), "exists, and the command does not name it; --replace overwrites it, or give another name");
+        throw InputError(path.string(),
+                         "exists and would be overwritten, though the command does not name it; give --replace, or another name");
 }
 
 bool holds(const std::filesystem::path& path, const std::string& text) {

@@ -18,7 +18,7 @@ void warn_of_inverse(const InverseReport& report) {
 std::string inverse_text(const InverseReport& report) {
     const std::string crosstalk =
         report.crosstalk && *report.crosstalk > 5e-4
-            ? fmt::format("; crosstalk {:.1f} %, which --levels {:.2f},{:.2f} leave room to cancel", 100 * *report.crosstalk,
+            ? fmt::format("; crosstalk {:.1f} %, which --levels {:.2f},{:.2f} would allow to cancel", 100 * *report.crosstalk,
                           *report.crosstalk / (1 + *report.crosstalk), 1 / (1 + *report.crosstalk))
             : "";
     const auto nearness = [](const Nearness& n) {

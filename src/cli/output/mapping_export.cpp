@@ -90,32 +90,32 @@ Json sidecar(const Display& d, const Geometry& g, const std::vector<LensMapping>
                     {"count", map.nodes()[k]},
                     {"direction", direction}};
     };
-    return {
-        {"lfdsim", LFDSIM_VERSION},
-        {"file", file},
-        {"what",
-         "For panel points u under a lens, from its axis: the line on which most of their light travels on the viewer's side, "
-         "every part of the lens's aperture counted alike. The line is (x, y) + (slope_x, slope_y) (z - plane_z_mm) from the "
-         "lens's "
-         "axis; all in the array's frame, turned against the panel's by array_turn_deg (counter-clockwise to the viewer)"},
-        {"npy_axes", {"colour", "row", "column", "value"}},
-        {"values",
-         {{{"name", "x_mm"}, {"unit", "mm"}},
-          {{"name", "y_mm"}, {"unit", "mm"}},
-          {{"name", "slope_x"}, {"unit", "1"}},
-          {{"name", "slope_y"}, {"unit", "1"}},
-          {{"name", "light"}, {"unit", "of the light of the point on the axis; 0: none leaves the lens, and the rest is NaN"}}}},
-        {"exr_layers", "COLOUR.slope: R slope_x, G slope_y, B light; COLOUR.place: R x_mm, G y_mm"},
-        {"columns", axis(0, "u along the array's x")},
-        {"rows", axis(1, "u along the array's y, from the top")},
-        {"colours", names},
-        {"wavelengths_nm", wavelengths},
-        {"plane_z_mm", g.rear_principal_mm},
-        {"gap_mm", g.gap_mm},
-        {"array_turn_deg", d.array.turn_deg()},
-        {"strips", is_strips(d.array)},
-        {"nodal_line", "has x = y = 0 and the slope -u / gap_mm"},
-        {"display", d.name}};
+    return {{"lfdsim", LFDSIM_VERSION},
+            {"file", file},
+            {"what",
+             "For panel points u under a lens, relative to its axis: the line along which most of their light travels on the "
+             "viewer's side, with equal weight for all parts of the lens's aperture. The line is (x, y) + (slope_x, slope_y) (z - "
+             "plane_z_mm) from the lens's axis; all in the array's frame, rotated relative to the panel's by array_turn_deg "
+             "(counter-clockwise to the viewer)"},
+            {"npy_axes", {"colour", "row", "column", "value"}},
+            {"values",
+             {{{"name", "x_mm"}, {"unit", "mm"}},
+              {{"name", "y_mm"}, {"unit", "mm"}},
+              {{"name", "slope_x"}, {"unit", "1"}},
+              {{"name", "slope_y"}, {"unit", "1"}},
+              {{"name", "light"},
+               {"unit", "relative to the light of the point on the axis; 0: none leaves the lens, and the other values are NaN"}}}},
+            {"exr_layers", "COLOUR.slope: R slope_x, G slope_y, B light; COLOUR.place: R x_mm, G y_mm"},
+            {"columns", axis(0, "u along the array's x")},
+            {"rows", axis(1, "u along the array's y, from the top")},
+            {"colours", names},
+            {"wavelengths_nm", wavelengths},
+            {"plane_z_mm", g.rear_principal_mm},
+            {"gap_mm", g.gap_mm},
+            {"array_turn_deg", d.array.turn_deg()},
+            {"strips", is_strips(d.array)},
+            {"nodal_line", "has x = y = 0 and the slope -u / gap_mm"},
+            {"display", d.name}};
 }
 
 /// Lines of a grid of panel points in the plane of slopes, straight for nodal lines; of strips how the slope differs.
@@ -164,7 +164,7 @@ bool is_sidecar(const fs::path& path, const std::string& mapping) {
 void MappingOption::check(const std::string& output) const {
     if (!given()) return;
     if (!output.empty() && fs::weakly_canonical(fs::absolute(path())) == fs::weakly_canonical(fs::absolute(output)))
-        throw InputError("--output, --mapping", "are two files of one name; give two names");
+        throw InputError("--output, --mapping", "name the same file; give two names");
     const fs::path ending = fs::path(path()).extension();
     if (ending != ".npy" && ending != ".exr")
         throw InputError(mapping_.name(), fmt::format("{}: the name must end in .npy or .exr", path()));

@@ -27,7 +27,7 @@ class MappingOption {
     Option mapping_ = command_.option("--mapping", "FILE",
                                       "Also writes the lens's mapping of panel points to rays: .npy or .exr, and beside it a .json "
                                       "that describes it and an .svg of the distortion");
-    Flag replace_ = command_.flag("--replace", "Write over a .json and .svg of other origin beside the file of --mapping");
+    Flag replace_ = command_.flag("--replace", "Overwrite a .json and .svg of other origin beside the file of --mapping");
 };
 
 }  // namespace lfdsim::cli

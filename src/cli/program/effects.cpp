@@ -20,7 +20,7 @@ struct Rule {
 
 constexpr std::string_view
     one_thing = "the panel can show only one of these; give one of them",
-    one_way = "lenses of triangles have one renderer: point samples on the CPU, for a single picture; give one of them";
+    one_way = "lenses of triangles are rendered with point samples on the CPU, a single picture at a time; give one of them";
 
 const std::vector<Rule>& contradictions() {
     static const std::vector<Rule> all{
@@ -29,7 +29,7 @@ const std::vector<Rule>& contradictions() {
         {{"--model", "--pattern"}, "--views", one_thing},
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg"},
          "--views",
-         "views are placed by --focus-depth-mm and --focus-width-mm, and cannot be turned; give those"},
+         "views are placed by --focus-depth-mm and --focus-width-mm, and cannot be rotated; give those"},
         // The viewer can photograph the model beside such a panel, or show it in place of that.
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--panel-image",
@@ -58,7 +58,7 @@ const std::vector<Rule>& belongings() {
         {{"--view"}, "--pattern view", "is only for --pattern view"},
         {{"--edge-deg", "--edge-depth-mm"}, "--pattern edge", "is only for --pattern edge"},
         {{"--frames-as", "--resume", "--replace"}, "--path", "is only for frames of a --path"},
-        {{"--replace"}, "--mapping", "is for the files beside that of --mapping"},
+        {{"--replace"}, "--mapping", "applies to the files beside that of --mapping"},
         {{"--lens-normals"}, "--lens-mesh", "are those of --lens-mesh, which is not given"},
         {{"--view-corners", "--fit-corners", "--fit-blur", "--overlay", "--difference"},
          "--corners",

@@ -25,10 +25,9 @@ void check_size(const ContentParts& parts, const std::vector<SceneObject>& objec
         vertices += objects[i].shading == Shading::flat ? 3 * own : double(parts[i]->vertices());
     }
     if (std::max(vertices, triangles) >= two_to_31)
-        throw InputError("content.object",
-                         fmt::format("the objects together have {:.0f} triangles and {:.0f} vertices, allowed are "
-                                     "2^31 of each; show fewer, or coarser ones",
-                                     triangles, vertices));
+        throw InputError("content.object", fmt::format("the objects together have {:.0f} triangles and {:.0f} vertices, allowed "
+                                                       "are 2^31 of each; show fewer or coarser ones",
+                                                       triangles, vertices));
 }
 
 // Adds one object after the other.

@@ -26,22 +26,22 @@ const char* fault(const Model& m) {
     if (m.indices.empty()) return "it has no triangles";
     if (m.positions.size() != 3 * n || m.normals.size() != 3 * n || m.uvs.size() != 2 * n || m.indices.size() % 3 != 0 ||
         (!m.colours.empty() && m.colours.size() != 3 * n) || m.material_of.size() != m.triangles())
-        return "its lists do not match";
+        return "its lists have different lengths";
     if (!finite(m.positions)) return "it has vertices that are infinite or not a number";
     if (!finite(m.normals) || !finite(m.uvs) || !finite(m.colours))
         return "it has normals, texture coordinates or colours that are infinite or not a number";
     if (std::any_of(m.indices.begin(), m.indices.end(), [&](std::uint32_t i) { return i >= n; }))
-        return "a triangle names a vertex that is not there";
+        return "a triangle refers to a vertex that does not exist";
     if (std::any_of(m.material_of.begin(), m.material_of.end(), [&](std::uint32_t i) { return i >= m.materials.size(); }))
-        return "a triangle names a material that is not there";
+        return "a triangle refers to a material that does not exist";
     for (const Material& material : m.materials) {
         if (material.texture < -1 || material.texture >= std::int64_t(m.textures.size()))
-            return "a material names a texture that is not there";
+            return "a material refers to a texture that does not exist";
         for (const float c : material.colour) {
             if (!(c >= 0 && c <= 1)) return "a colour is out of range";
         }
         for (const Wrap w : {material.wrap_u, material.wrap_v}) {
-            if (w != Wrap::repeat && w != Wrap::clamp && w != Wrap::mirror) return "a texture wraps in an unknown way";
+            if (w != Wrap::repeat && w != Wrap::clamp && w != Wrap::mirror) return "a texture has an unknown wrapping mode";
         }
     }
     for (const Texture& t : m.textures) {
@@ -86,7 +86,7 @@ std::shared_ptr<const Model> load(const std::string& what, const fs::path& path,
             reader.array(why);
             refuse(why);
         }
-        if (reply != Reply::model) refuse("the reader's answer makes no sense");
+        if (reply != Reply::model) refuse("the reader's answer is invalid");
         transfer(reader, *model);
     } catch (const ReaderProcess::Failure& failure) {
         refuse(failure.what());

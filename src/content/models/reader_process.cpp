@@ -102,8 +102,8 @@ void ReaderProcess::fail() {
                                           1e-6 * double(used.ru_utime.tv_usec + used.ru_stime.tv_usec));
         if (seconds >= options_.seconds) throw Failure(timeout_text(options_.seconds));
         throw Failure(
-            fmt::format("reading it took more than {:g} s, too much for a file of its size; is it damaged? A program that opens "
-                        "it can export it anew, as .glb or .obj",
+            fmt::format("reading it took more than {:g} s, too much for a file of its size; is it damaged? A program that opens it "
+                        "can export it again, as .glb or .obj",
                         seconds));
     }
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw Failure("the reader was killed; perhaps memory ran out");
@@ -114,7 +114,7 @@ void ReaderProcess::fail() {
     if (!how.empty())
         throw Failure(
             fmt::format("it made the reader of its format crash ({}): it is damaged, or has something that the reader cannot "
-                        "take; save it in another format, glTF for one",
+                        "handle; save it in another format, such as glTF",
                         how));
     throw Failure("the reader ended early");
 }

@@ -53,9 +53,11 @@ ContentParts load_parts(const std::vector<ContentFile>& files, const LoadOptions
                     file.path,
                     fmt::format("reading this and the scene's other files took more than {:g} s; show fewer", options.seconds));
             if (left.bytes < 1)
-                throw InputError(file.path, fmt::format("the scene's other files alone need {} MiB, which is all that is allowed; "
-                                                        "show fewer, or coarser ones",
-                                                        options.bytes >> 20));
+                throw InputError(
+                    file.path,
+                    fmt::format(
+                        "the scene's other files alone need {} MiB, which is all that is allowed; show fewer or coarser ones",
+                        options.bytes >> 20));
             model = file.image ? load_picture(file.path, left) : load_model(file.path, left);
             left.bytes -= bytes_of(*model);
             left.seconds = options.seconds - std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

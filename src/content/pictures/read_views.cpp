@@ -120,7 +120,7 @@ std::optional<ReadViews> read_views(const ViewsSource& source, const ViewsWish& 
         if (!depth.empty()) {
             const Image values = read_image(depth, Encoding::linear);
             if (std::abs(std::int64_t(values.width) * height - std::int64_t(values.height) * width) > std::max(width, height))
-                throw InputError(depth.string(), fmt::format("is {} x {} pixels, which has not the shape of the views, {} x {}",
+                throw InputError(depth.string(), fmt::format("is {} x {} pixels, whose aspect is not that of the views, {} x {}",
                                                              values.width, values.height, width, height));
             maps.back() = kappa_map(source, values, grid, step_mm);
         }

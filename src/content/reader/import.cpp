@@ -159,7 +159,8 @@ class Conversion {
 
     void add(const aiMesh& mesh) {
         if (!(mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || !mesh.mVertices) return;
-        if (mesh.mMaterialIndex >= scene_.mNumMaterials) throw std::runtime_error("a mesh names a material that is not there");
+        if (mesh.mMaterialIndex >= scene_.mNumMaterials)
+            throw std::runtime_error("a mesh refers to a material that does not exist");
         Attributes of{0, coloured(mesh), {}};
         if (const auto tiling = tilings_.find(scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()); tiling != tilings_.end())
             of.tiling = tiling->second;
@@ -175,7 +176,8 @@ class Conversion {
                 continue;
             }
             for (int k = 0; k < 3; ++k)
-                if (face.mIndices[k] >= mesh.mNumVertices) throw std::runtime_error("a face names a vertex that is not there");
+                if (face.mIndices[k] >= mesh.mNumVertices)
+                    throw std::runtime_error("a face refers to a vertex that does not exist");
             if (mesh.mNormals)
                 for (int k = 0; k < 3; ++k) model_.indices.push_back(std::uint32_t(first + face.mIndices[k]));
             else

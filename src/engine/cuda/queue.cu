@@ -159,10 +159,10 @@ GpuSearch find() {
     const cudaError_t result = cudaGetDeviceCount(&count);
     cudaGetLastError();
     if (found.driver.empty()) {
-        found.missing = "no NVIDIA driver was found; a GPU needs one that knows CUDA " + found.toolkit;
+        found.missing = "no NVIDIA driver was found; a GPU needs one that supports CUDA " + found.toolkit;
     } else if (result == cudaErrorInsufficientDriver) {
         found.missing =
-            "the NVIDIA driver is too old: it knows CUDA " + found.driver + ", " + found.toolkit + " is needed; update it";
+            "the NVIDIA driver is too old: it supports CUDA " + found.driver + ", " + found.toolkit + " is needed; update it";
     } else if (result == cudaErrorNoDevice || (result == cudaSuccess && count == 0)) {
         found.missing = "there is a driver, but no GPU that it shows; CUDA_VISIBLE_DEVICES may hide them";
     } else if (result != cudaSuccess) {
@@ -174,7 +174,7 @@ GpuSearch find() {
         cudaDeviceProp p;
         if (cudaGetDeviceProperties(&p, k) != cudaSuccess) {
             cudaGetLastError();
-            found.gpus.push_back({"unknown", 0, 0, 0, "it does not tell its properties"});
+            found.gpus.push_back({"unknown", 0, 0, 0, "it does not report its properties"});
             continue;
         }
         Gpu gpu{p.name, p.major, p.minor, double(p.totalGlobalMem) * 1e-9, ""};

@@ -62,7 +62,7 @@ MemoryBudget::MemoryBudget(double bytes) : bytes_(bytes) {}
 MemoryBudget::Claim MemoryBudget::claim(const std::string& where, const std::string& what, double bytes) {
     const std::lock_guard lock(mutex_);
     if (const double left = bytes_ - claimed_; bytes > left)
-        refuse(where, what, bytes, "with what is shown to others the viewer has", std::max(left, 0.));
+        refuse(where, what, bytes, "beside the pictures of other visitors, the viewer has", std::max(left, 0.));
     require_memory(where, what, bytes);
     claimed_ += bytes;
     return Claim(*this, bytes);

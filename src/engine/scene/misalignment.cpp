@@ -62,7 +62,7 @@ std::vector<LensError> lenses_as_built(const Display& d, const Lattice<double>& 
     const double count = double(lattice.count[0]) * double(lattice.count[1]), bytes = count * (2 * sizeof(LensError));
     constexpr double small_bytes = 1 << 20;
     if (bytes > small_bytes)
-        require_memory("array.count", fmt::format("[errors] of {:.0f} lenses, each with its own,", count), bytes);
+        require_memory("array.count", fmt::format("[errors] of {:.0f} individually misaligned lenses", count), bytes);
     std::vector<LensError> all = lens_errors(d, lattice);
     if (d.errors.bow_mm == 0) return all;
     const auto columns = std::size_t(lattice.count[0]);

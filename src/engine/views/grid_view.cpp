@@ -28,7 +28,7 @@ GridCamera grid_camera(const Display& display, const Geometry& geometry, const V
     const std::string place = fmt::format("the camera in column {}, row {} of the grid", column, row);
     if (!(4 * half_columns * half_rows < two_to_31))
         throw InputError(place,
-                         "is so far off axis that its picture has 2^31 pixels or more; make views smaller or the baseline less");
+                         "is so far off axis that its picture has 2^31 pixels or more; give smaller views or a smaller baseline");
     GridCamera made{display, {}, 0, 0, grid.width_mm / width / pixel, grid.height_mm / height / pixel};
     Camera& camera = made.display.camera;
     const double focus_z = geometry.vertex_plane_mm + grid.depth_mm;

@@ -146,7 +146,7 @@ class CalibrationReader : JsonReader {
     std::int64_t whole(const std::string& key, const Range& range) {
         const double x = required(key, range);
         if (!range.contains(x)) return std::int64_t(range.low);
-        if (x != std::floor(x)) refuse(key, "is {}; a number of pixels is whole", x);
+        if (x != std::floor(x)) refuse(key, "is {}; give a whole number of pixels", x);
         return std::int64_t(x);
     }
 
@@ -169,18 +169,18 @@ class CalibrationReader : JsonReader {
             return;
         }
         if (!cells.is_array() || cells.size() > most_cells)
-            return refuse("subpixelCells", "is no list of 1 to {} cells", most_cells);
+            return refuse("subpixelCells", "is not a list of 1 to {} cells", most_cells);
         const std::size_t needed = std::size_t(cell_patterns[pattern].cells);
         if (!has_mode && cells.size() > 1)
             refuse("CellPatternMode", "is missing, and there are {} subpixelCells; give the mode, 0 to {}", cells.size(),
                    std::size(cell_patterns) - 1);
         if (cells.size() < needed)
-            return refuse("subpixelCells", "has {}, but CellPatternMode {} repeats {}; give as many, or another mode", cells.size(),
-                          pattern, needed);
+            return refuse("subpixelCells", "has {}, but CellPatternMode {} repeats {}; give that number, or another mode",
+                          cells.size(), pattern, needed);
         for (std::size_t k = 0; k < needed; ++k) c.cells.push_back(read_cell(cells[k], fmt::format("subpixelCells[{}]", k)));
         c.cell_pattern = int(pattern);
         if (cells.size() > needed)
-            c.notes.push_back(fmt::format("Only the first {} of {} subpixelCells are in use, by CellPatternMode {}.", needed,
+            c.notes.push_back(fmt::format("Only the first {} of {} subpixelCells are used, as CellPatternMode {} says.", needed,
                                           cells.size(), pattern));
     }
 
@@ -247,7 +247,7 @@ Calibration parse_calibration(std::string_view text, std::string_view name) {
     const std::vector<CalibrationValues> found = calibrations_in(text, name);
     if (found.empty())
         throw InputError(std::string(name),
-                         "is no calibration: nothing in it has values such as pitch, slope, center, DPI, screenW and screenH");
+                         "is not a calibration: it has no values such as pitch, slope, center, DPI, screenW and screenH");
     if (found.size() > 1) {
         std::vector<std::string> places;
         for (const CalibrationValues& each : found) {

@@ -59,8 +59,8 @@ class CalibrationImport {
         : c(calibration), request(r), name(file) {}
 
     Imported import() {
-        made.what = "A lenticular display by its calibration";
-        made.notes = {fmt::format("Calibration of {}, for where the views of each lens lie on the panel.",
+        made.what = "A lenticular display from its calibration";
+        made.notes = {fmt::format("Calibration of {}: the positions of each lens's views on the panel.",
                                   c.serial.empty() ? "a unit without a serial" : c.serial)};
         d.name = c.serial;
         make_panel();
@@ -91,7 +91,7 @@ class CalibrationImport {
         d.panel.pixel_pitch_mm = inch_mm / c.dpi;
         if (const double behind = c.dpi / c.pitch_per_inch; behind < fewest_pixels_behind)
             refuse("pitch",
-                   fmt::format("is {} lenses an inch, with {:.3g} of the panel's pixels behind each; at least {}, so at most DPI",
+                   fmt::format("is {} lenses per inch, with {:.3g} of the panel's pixels behind each; at least {}, so at most DPI",
                                c.pitch_per_inch, behind, fewest_pixels_behind));
         if (c.cells.empty()) {
             d.panel.subpixels = c.flip_image_x != c.flip_subpixels ? SubpixelLayout::bgr_stripe : SubpixelLayout::rgb_stripe;
@@ -114,10 +114,10 @@ class CalibrationImport {
                         {Channel(channel), {column, row}, {x - width / 2, y - height / 2, x + width / 2, y + height / 2}});
                 }
         note(
-            "The places of subpixels are those of subpixelCells (mode {}); their sizes, which it does not hold, are the largest "
-            "that all can have: {:.3g} x {:.3g} of a pixel.",
+            "The positions of subpixels are those of subpixelCells (mode {}); their sizes, which it does not contain, are the "
+            "largest that all can have: {:.3g} x {:.3g} of a pixel.",
             c.cell_pattern, width, height);
-        if (c.flip_subpixels) note("flipSubp is not read: subpixelCells say where each colour is.");
+        if (c.flip_subpixels) note("flipSubp is not read: subpixelCells give the position of each colour.");
     }
     /// Of a row of the cell that is at the panel's top.
     std::int64_t row_from_bottom(int row, const CellPattern& pattern) const {
@@ -132,7 +132,7 @@ class CalibrationImport {
             return note("The gap is that of --gap-mm; a lens then sends light into {:.4g} degrees{}.", cone,
                         c.view_cone_deg ? fmt::format(" (viewCone: {:g})", *c.view_cone_deg) : "");
         }
-        if (!c.view_cone_deg) refuse("viewCone", "is missing, from which the gap would follow; give --gap-mm");
+        if (!c.view_cone_deg) refuse("viewCone", "is missing, which determines the gap; give --gap-mm");
         gap_mm = to_nanometre(across / (2 * std::tan(*c.view_cone_deg * degree / 2)));
         note(
             "Gap, in air: {:g} mm, so that a lens sends the light of its elemental image into the viewCone of {:g} degrees, along "
@@ -148,8 +148,9 @@ class CalibrationImport {
         // In glass of index n the lens's vertex stands at n g, and light bends nowhere else.
         const double vertex_mm = gap_mm * request.index.value_or(1), to_eye_mm = distance_mm - vertex_mm;
         if (!(to_eye_mm > 0))
-            refuse("--distance-mm", fmt::format("the eye is {:g} mm from the panel, but the lenses are at {:.4g} mm; give more",
-                                                distance_mm, vertex_mm));
+            refuse("--distance-mm",
+                   fmt::format("the eye is {:g} mm from the panel, but the lenses are at {:.4g} mm; give a larger distance",
+                               distance_mm, vertex_mm));
         const double pitch_mm = elemental_pitch_mm() / (1 + gap_mm / to_eye_mm);
         d.array.pitch_mm = pitch_mm;
         if (request.distance_mm)
@@ -167,8 +168,8 @@ class CalibrationImport {
             d.lens.kind = IdealLens{{}, gap_mm};
             d.array.gap_mm = gap_mm;
             return note(
-                "Assumed: cylindrical lenses without aberrations, focused on the panel; a calibration does not hold their "
-                "shape and glass (--index makes real cylinders).");
+                "Assumed: cylindrical lenses without aberrations, focused on the panel; a calibration does not contain their shape "
+                "and glass (--index makes real cylinders).");
         }
         make_sheet(pitch_mm);
     }
@@ -233,7 +234,7 @@ class CalibrationImport {
                        of_eye = p.where.starts_with("camera.") || p.where.starts_with("content.");
             p.what += of_panel ? "; by screenW, screenH, DPI and subpixelCells"
                       : of_eye ? "; --distance-mm changes that"
-                               : "; pitch, slope and viewCone, or --gap-mm, decide that";
+                               : "; pitch, slope and viewCone, or --gap-mm, determine that";
             p.where = fmt::format("{}: {}", name, p.where);
         }
         if (!problems.empty()) throw InputError(std::move(problems));

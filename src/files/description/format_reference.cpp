@@ -69,10 +69,12 @@ std::string format_reference_markdown() {
 
 A TOML file describes a display, the camera that looks at it and what it shows. Lengths are in millimetres and angles in degrees, as
 the keys' names say. The panel lies in z = 0, centred on the origin; +x is the viewer's right, +y is up, +z is towards the viewer.
-[model.md](model.md) describes the optics, and of [model files](model.md#scene) what is shown and what is not. `displays/` holds ready-made descriptions.
+[model.md](model.md) describes the optics and which parts of [model files](model.md#scene) are shown. `displays/` contains ready-made
+descriptions.
 
-A key that is unknown, stands in the wrong table or has no meaning for the lens's type is an error, as is a value of another type or
-outside what is allowed; an integer may stand for a number. All errors are reported together, each with file, line and column.
+A key that is unknown, in the wrong table or without meaning for the lens's type is an error, as is a value of another type or
+outside the allowed range; an integer is accepted where a number is expected. All errors are reported together, each with file,
+line and column.
 
 On the command line `--set key=value` changes one value: the key with its table before a dot, the value as in TOML. Words need no
 quotes (`--set lens.facing=panel`), `none` removes a key or table (`--set diffuser=none`), and surfaces are counted from 0
@@ -93,10 +95,10 @@ In place of `index`, which is the same for all colours, a medium may have `glass
 - `conrady`, `herzberger`, `resonances`, `sellmeier_2`, `handbook_1`, `handbook_2` in the same way: the coefficients of the formulas 5,
   3, 9, 4, 7 and 8 of AGF ([model.md](model.md#colour)).
 
-A table may also have a `name`, and `range_nm = [400, 700]`, wavelengths for which it holds. That is how pictures and results keep the
-glasses of `glass_catalogues`, so that they can be read where the catalogue is not.
+A table may also have a `name`, and `range_nm = [400, 700]`, the wavelengths for which it holds. Pictures and results store the glasses
+of `glass_catalogues` in this form, so that they can be read without the catalogue.
 
-The index is 1 to 4 at every wavelength that is used, and each of these is in the range of the glass. On the command line:
+The index must be 1 to 4 at every wavelength that is used, and these must lie in the range of the glass. On the command line:
 `--set lens.index=none lens.glass=PC`, or `--set lens.index=none "lens.glass={ nd = 1.4918, vd = 57.4 }"`.
 
 ## Top level

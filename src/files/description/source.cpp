@@ -36,7 +36,8 @@ std::optional<std::size_t> element(std::string_view part, const toml::array& arr
 bool is_number(std::string_view part) { return !part.empty() && part.find_first_not_of("0123456789") == part.npos; }
 
 InputError no_element(std::string_view part) {
-    return {"", fmt::format("there is no element {} to change; they count from 0, and new ones come with the whole list, key=[...]",
+    return {"", fmt::format("there is no element {} to change; elements are counted from 0, and new ones are added by giving the "
+                            "whole list, key=[...]",
                             part)};
 }
 

@@ -12,8 +12,8 @@ CommentedText begun_design(const std::string& name, const std::string& made_by) 
     CommentedText text;
     text.note("A first-order design, as a starting point. Made by: {}", made_by);
     text.note(
-        "It follows from thin-lens arithmetic alone. `lfdsim check` reports what theory predicts, `lfdsim analyze` "
-        "measures what the real lenses achieve; the formulas are those of docs/model.md. Lengths are in mm.");
+        "It follows from thin-lens formulas alone. `lfdsim check` reports what theory predicts, `lfdsim analyze` measures what the "
+        "real lenses achieve; the formulas are those of docs/model.md. Lengths are in mm.");
     text.key("schema", std::int64_t{1});
     text.key("name", name);
     return text;
@@ -41,9 +41,9 @@ void write_lens(const FirstOrder& o, CommentedText& text) {
               f / (2 * *lens.aperture_radius_mm));
     text.key("sphere_radius_mm", lens.sphere_radius_mm);
     if (o.aperture_rule == ApertureRule::cell)
-        text.note("r = p/2: the lens fills its cell, as its spherical aberration is no wider than a panel pixel.");
+        text.note("r = p/2: the lens fills its cell; the blur by its spherical aberration is no wider than a panel pixel.");
     if (o.aperture_rule == ApertureRule::sphere)
-        text.note("r = 0.9 R, {:.3g} of p/2: a wider cap would come too near to half a ball. The space between lenses is black.",
+        text.note("r = 0.9 R, {:.3g} of p/2: a wider cap would come too near to a hemisphere. The space between lenses is black.",
                   2 * *lens.aperture_radius_mm / o.display.array.pitch_mm[0]);
     if (o.aperture_rule == ApertureRule::aberration)
         text.note(
@@ -52,7 +52,7 @@ void write_lens(const FirstOrder& o, CommentedText& text) {
             2 * *lens.aperture_radius_mm / o.display.array.pitch_mm[0], 1000 * o.display.panel.pixel_pitch_mm / g, spherical_blur,
             pmma_index);
     text.key("aperture_radius_mm", *lens.aperture_radius_mm);
-    text.note("The wall under the cap, a quarter of the pitch or of the gap.");
+    text.note("Height of the wall under the cap: a quarter of the pitch or of the gap.");
     text.key("cylinder_height_mm", lens.cylinder_height_mm);
     text.note("PMMA at 589 nm");
     text.key("index", *lens.index);
@@ -63,14 +63,12 @@ std::string pitch_reason(const FirstOrder& o) {
     switch (o.pitch_rule) {
         case PitchRule::balanced:
             return fmt::format(
-                "Seen by the eye a lens is then {:.3g} arc minutes wide and the image of a panel pixel on the central depth plane "
-                "{:.3g}, "
-                "so that lenses and pixels limit resolution about equally: wider lenses would give more views and a finer picture "
-                "at that "
-                "depth, but a coarser one at the lenses and less depth of field.",
+                "From the eye a lens then subtends {:.3g} arc minutes and the image of a panel pixel on the central depth plane "
+                "{:.3g}, so that lenses and pixels limit resolution about equally: wider lenses would give more views and a finer "
+                "picture at that depth, but a coarser one at the lenses and less depth of field.",
                 3437.75 * o.display.array.pitch_mm[0] / eye, 3437.75 * o.theory.pixel_image_mm / (eye - L));
         case PitchRule::pupil:
-            return fmt::format("It is about half of a pupil of {:g} mm, so that light from several lenses enters the eye together.",
+            return fmt::format("It is about half of a pupil of {:g} mm, so that light from several lenses enters the eye at once.",
                                pupil_mm);
         case PitchRule::lenses:
             return fmt::format(
@@ -82,8 +80,8 @@ std::string pitch_reason(const FirstOrder& o) {
             break;
     }
     return fmt::format(
-        "That many are needed for a picture that changes with the eye's position; lenses and pixels would limit resolution "
-        "about equally with fewer.");
+        "Fewer would not give a picture that changes with the eye's position, although lenses and pixels would then limit "
+        "resolution about equally.");
 }
 
 void write_array(const FirstOrder& o, CommentedText& text) {
@@ -98,8 +96,8 @@ void write_array(const FirstOrder& o, CommentedText& text) {
         text.note("p = N a with N = {} panel pixels, and so {} x {} views. {}", o.views, o.views, o.views, pitch_reason(o));
     text.key("pitch_mm", array.pitch_mm);
     text.note(
-        "Elemental images are p' = p (1 + g/E) = {:.6g} mm wide, E = {:.6g} mm from the lenses to the eye. The count is of those "
-        "that lie whole on the panel.",
+        "Elemental images are p' = p (1 + g/E) = {:.6g} mm wide, E = {:.6g} mm from the lenses to the eye. The count is that of "
+        "elemental images that lie whole on the panel.",
         o.theory.along[0].elemental_pitch_mm, o.eye_mm);
     text.key("count", *array.count);
     text.note(
@@ -119,14 +117,15 @@ void write_diffuser(const FirstOrder& o, CommentedText& text) {
     const Diffuser& diffuser = *o.display.diffuser;
     text.table("diffuser");
     if (*o.request.depth_mm > 0)
-        text.note("On the central depth plane, where it does not blur the picture.");
+        text.note("The diffuser is on the central depth plane, where it does not blur the picture.");
     else
         text.note(
-            "In front of the lenses, as far as the central depth plane is behind them, at most a quarter of the way to the eye.");
+            "The diffuser is as far in front of the lenses as the central depth plane is behind them, at most a quarter of the way "
+            "to the eye.");
     text.key("distance_mm", diffuser.distance_mm);
     text.note(
         "2 atan(p / 2d): the angle of a lens pitch seen from the diffuser at distance d, so that dark gaps between lenses close{}.",
-        o.display.array.lattice == LatticeKind::hexagon ? "; upwards p is from row to row" : "");
+        o.display.array.lattice == LatticeKind::hexagon ? "; vertically p is the pitch from row to row" : "");
     text.key("angle_deg", diffuser.angle_deg);
 }
 
@@ -135,7 +134,7 @@ void write_camera_and_content(const FirstOrder& o, CommentedText& text) {
     const Content& content = o.display.content;
     text.table("camera");
     text.key("position_mm", camera.position_mm);
-    text.note("The lens array as it is seen from there, with a margin of about 5 %.");
+    text.note("Width of the lens array as seen from there, with a margin of about 5 %.");
     text.key("frame_width_mm", *camera.frame_width_mm);
     text.key("resolution", camera.resolution);
     if (camera.pupil_diameter_mm) {
@@ -147,7 +146,7 @@ void write_camera_and_content(const FirstOrder& o, CommentedText& text) {
     text.key("model", content.model);
     text.note("On the central depth plane, where the picture is sharpest.");
     text.key("depth_mm", *content.depth_mm);
-    text.note("Half the panel's height as the eye sees it, or |L| where that is less.");
+    text.note("Half the panel's height as seen by the eye, or |L| if that is less.");
     text.key("height_mm", *content.height_mm);
     text.note("Elemental images are made for the eye's position.");
     text.key("viewing_distance_mm", content.viewing_distance_mm);

@@ -105,7 +105,7 @@ class AgfReader {
             start = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
         }
         finish();
-        if (problems_.empty() && !names_) add_problem("", "has no line NM with a glass; an AGF catalogue does");
+        if (problems_.empty() && !names_) add_problem("", "has no line NM with a glass, which an AGF catalogue has");
         if (!problems_.empty()) throw InputError(std::move(problems_));
         return std::move(read_);
     }

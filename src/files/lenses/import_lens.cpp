@@ -47,7 +47,8 @@ class LensImport {
         double& object = lens.surfaces.front().distance_mm;
         if (std::abs(object) >= infinite_mm) object = infinity;
         scale(lens, request.scale);
-        if (request.scale != 1) notes.push_back(fmt::format("All lengths of the lens are {:g} of the file's.", request.scale));
+        if (request.scale != 1)
+            notes.push_back(fmt::format("All lengths of the lens are {:g} times those of the file.", request.scale));
         find_media();
         if (kept_surfaces()) give_apertures();
         report();
@@ -93,7 +94,7 @@ class LensImport {
             else
                 refuse("--glass", "the lens has no glass {}", shortened(choice.name));
         if (std::any_of(media.begin(), media.end(), [](const LensMedium& m) { return m.glass.has_value(); }))
-            notes.push_back(fmt::format("The lens is drawn for light of {:.4g} nm{}; lengths here hold for green light.", nm,
+            notes.push_back(fmt::format("The lens was designed for light of {:.4g} nm{}; lengths here hold for green light.", nm,
                                         lens.beam.wavelength_nm ? "" : ", as far as is known"));
     }
 
@@ -127,10 +128,11 @@ class LensImport {
                 left_out.push_back(fmt::to_string(i));
         }
         if (!left_out.empty())
-            notes.push_back(fmt::format("Left out, as they neither bend nor stop light: surfaces {}.", fmt::join(left_out, ", ")));
+            notes.push_back(
+                fmt::format("Left out, as they neither refract nor stop light: surfaces {}.", fmt::join(left_out, ", ")));
         const bool bends = std::any_of(media.begin(), media.end(), [](const LensMedium& m) { return m != LensMedium(); });
         if (!bends)
-            refuse(lens.surfaces.front().place, "is followed by no glass at all: there is no lens");
+            refuse(lens.surfaces.front().place, "is not followed by any glass: there is no lens");
         else if (kept.size() > max_surfaces)
             refuse(lens.surfaces[kept[max_surfaces]].place, "is one too many: the lens has {} surfaces, allowed are {}",
                    kept.size(), max_surfaces);
@@ -144,7 +146,7 @@ class LensImport {
         std::vector<std::string> without;
         for (const std::size_t i : kept)
             if (!lens.surfaces[i].semi_aperture_mm) without.push_back(fmt::to_string(i));
-        notes.push_back("Beyond its semi-aperture each surface absorbs; a lens design program may let such light pass.");
+        notes.push_back("Each surface absorbs beyond its semi-aperture; a lens design program may transmit such light.");
         if (without.empty()) {
             if (request.semi_aperture_mm)
                 notes.push_back("--semi-aperture-mm has no effect: the file has semi-apertures of all surfaces.");
@@ -156,9 +158,9 @@ class LensImport {
             notes.push_back(fmt::format("The file has no semi-apertures of surfaces {}: {} mm by --semi-aperture-mm.",
                                         fmt::join(without, ", "), *request.semi_aperture_mm));
         } else if (by_beam = fill_apertures(lens, indices); by_beam) {
-            notes.push_back(
-                fmt::format("The file has no semi-apertures of surfaces {}: they are as wide as its beam needs, by paraxial rays.",
-                            fmt::join(without, ", ")));
+            notes.push_back(fmt::format(
+                "The file has no semi-apertures of surfaces {}: they are as wide as its beam requires, by paraxial rays.",
+                fmt::join(without, ", ")));
         } else {
             refuse(lens.surfaces[kept.front()].place,
                    "no semi-aperture is given for surfaces {}, nor a beam from which they follow; give --semi-aperture-mm",
@@ -230,8 +232,8 @@ class LensImport {
         diffuser.distance_mm = rounded(std::min(std::abs(depth), room / 4));
         diffuser.angle_deg.fill(rounded(2 * std::atan(d.array.pitch_mm[0] / (2 * diffuser.distance_mm)) / degree));
         notes.push_back(
-            "A diffuser closes the dark gaps between the lenses: on the central depth plane, at most a quarter of the way to the "
-            "eye.");
+            "A diffuser closes the dark gaps between the lenses; it is on the central depth plane, at most a quarter of the way to "
+            "the eye.");
     }
 
     // From the panel to the lens's principal plane, in the green light that decides lengths here.
@@ -239,10 +241,9 @@ class LensImport {
         const Cardinal c = cardinal_points(prescription(d.lens, d.array, d.panel.wavelengths_nm[green_channel]));
         const bool diverges = c.focal_length_mm < 0;
         if (diverges)
-            notes.insert(
-                notes.begin(),
-                fmt::format("The lens diverges (focal length {:.6g} mm): at no gap does it make a real image of the panel.",
-                            c.focal_length_mm));
+            notes.insert(notes.begin(),
+                         fmt::format("The lens diverges (focal length {:.6g} mm): it forms no real image of the panel at any gap.",
+                                     c.focal_length_mm));
         if (request.gap_mm) return *request.gap_mm;
         const std::size_t last = lens.surfaces.size() - 1;
         const double to_image = between(kept.back(), last), to_object = between(0, kept.front());
@@ -283,7 +284,7 @@ class LensImport {
         const Geometry g = resolve_unchecked(d);
         const std::int64_t across = std::min(g.lattice.count[0], g.lattice.count[1]);
         if (across < fewest_lenses)
-            notes.push_back(fmt::format("The panel's shorter side has room for {} of {:.4g} mm; --scale makes them smaller.",
+            notes.push_back(fmt::format("Only {} of {:.4g} mm fit along the panel's shorter side; --scale makes them smaller.",
                                         counted(across, "lens", "lenses"), d.array.pitch_mm[0]));
         else if (const double views = d.array.pitch_mm[0] / d.panel.pixel_pitch_mm; views < fewest_views)
             notes.push_back(

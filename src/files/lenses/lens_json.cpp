@@ -42,7 +42,7 @@ LensJson parse_lens_json(std::string_view text, std::string_view name) {
     } catch (const LensJson::exception& error) {
         const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
         const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
-        throw InputError(std::string(name), "is no JSON: " + says.substr(begin, end - begin));
+        throw InputError(std::string(name), "is not JSON: " + says.substr(begin, end - begin));
     }
 }
 
@@ -70,7 +70,7 @@ double JsonReader::number(const LensJson& json, const std::string& place, bool m
 const LensJson& JsonReader::list(const LensJson& json, const std::string& place, std::size_t least) const {
     constexpr std::size_t most = 1000;
     if (json.is_array() && json.size() >= least && json.size() <= most) return json;
-    throw InputError(name, fmt::format("{} is no list of {} to {}: is this a saved lens?", place, least, most));
+    throw InputError(name, fmt::format("{} is not a list of {} to {}: is this a saved lens?", place, least, most));
 }
 
 void JsonReader::report() const {

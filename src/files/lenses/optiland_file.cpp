@@ -68,13 +68,13 @@ class OptilandReader : LensJsonReader {
         if (!member(shape, "conic").is_null()) s.conic = number(member(shape, "conic"), place + ".conic");
         if (type == "StandardGeometry") return;
         const LensJson& terms = member(shape, "coefficients");
-        if (!terms.is_array() || terms.size() > 100) return refuse(place + ".coefficients", "is no list of numbers");
+        if (!terms.is_array() || terms.size() > 100) return refuse(place + ".coefficients", "is not a list of numbers");
         for (std::size_t k = 1; k < terms.size(); ++k)
             s.even_asphere.push_back(number(terms[k], fmt::format("{}.coefficients[{}]", place, k)));
         while (!s.even_asphere.empty() && s.even_asphere.back() == 0) s.even_asphere.pop_back();
         if (const double a2 = terms.empty() ? 0 : number(terms[0], place + ".coefficients[0]"); !fold_r2(s, a2))
-            refuse(place + ".coefficients[0]", "is {}, a term in r^2 beside a conic of constant {}, which no surface here has", a2,
-                   s.conic);
+            refuse(place + ".coefficients[0]", "is {}, a term in r^2 beside the conic constant {}, which surfaces here do not have",
+                   a2, s.conic);
     }
 
     void read_medium(const LensJson& material, const std::string& place, DrawnMedium& medium) {
@@ -95,7 +95,7 @@ class OptilandReader : LensJsonReader {
         if (member(aperture, "type") != "RadialAperture")
             return refuse(place, "is of type {}, which cannot be imported; RadialAperture can", word_of(member(aperture, "type")));
         if (number(member(aperture, "r_min"), place + ".r_min") != 0)
-            refuse(place, "has a dark middle; only whole circles can be imported");
+            refuse(place, "has a central obscuration; only full circles can be imported");
         if (const double radius = number(member(aperture, "r_max"), place + ".r_max", true); std::isfinite(radius))
             s.semi_aperture_mm = radius, s.is_hole = true;
     }

@@ -80,7 +80,7 @@ class RayOpticsReader : LensJsonReader {
         }
         while (!s.even_asphere.empty() && s.even_asphere.back() == 0) s.even_asphere.pop_back();
         if (!fold_r2(s, a2))
-            refuse(place, "has the term {} r^2 beside a conic of constant {}, which no surface here has", a2, s.conic);
+            refuse(place, "has the term {} r^2 beside the conic constant {}, which surfaces here do not have", a2, s.conic);
     }
 
     void read_aperture(const LensJson& json, const std::string& place, DrawnSurface& s) {
@@ -89,7 +89,7 @@ class RayOpticsReader : LensJsonReader {
             return refuse(place, "has an aperture of type {}, which cannot be imported; Circular can", class_of(json));
         for (const char* key : {"x_offset", "y_offset"})
             if (const LensJson& offset = member(its, key); !offset.is_null() && number(offset, place) != 0)
-                refuse(place, "has an aperture beside the axis; only circles about it can be imported");
+                refuse(place, "has a decentred aperture; only circles about the axis can be imported");
         s.semi_aperture_mm = number(member(its, "radius"), place + ".radius");
         s.is_hole = true;
     }

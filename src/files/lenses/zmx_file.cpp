@@ -79,7 +79,8 @@ class ZmxReader {
         for (const Word& word : of_surface ? std::span<const Word>(surface_words) : std::span<const Word>(system_words))
             if (word.key == key) return (this->*word.read)();
         if (std::ranges::find(other_apertures, key) != std::end(other_apertures))
-            return refuse(line, "{}{} is an aperture that is no circle about the axis; only those can be imported", here(), key);
+            return refuse(line, "{}{} is an aperture other than a circle about the axis; only such circles can be imported", here(),
+                          key);
         // Behind the surfaces stand the words of the merit function and the tolerances, which are many.
         if ((surfaces.empty() || in_surface) && std::ranges::find(harmless, key) == std::end(harmless) && unread.size() < 20)
             unread.push_back(fmt::format("{} (line {})", shortened(key), line));
@@ -138,14 +139,14 @@ class ZmxReader {
         if (i >= 1 && i <= 8 && i == std::floor(i))
             surface().parameters[std::size_t(i) - 1] = value;
         else if (value != 0 && surface().type == "EVENASPH")
-            refuse(line, "{}PARM {} is no coefficient; PARM 1 to 8 are", here(), shortened(words[1]));
+            refuse(line, "{}PARM {} is not a coefficient; PARM 1 to 8 are", here(), shortened(words[1]));
     }
     void read_stop() { surface().drawn.is_stop = true; }
     // What surfaces of the same size are drawn with; 0 where nothing determines it.
     void read_diameter() { limit(number(1)); }
     void read_aperture() {
         if (number(1) != 0)
-            refuse(line, "{}{} has a dark middle; only whole circles can be imported", here(), words[0]);
+            refuse(line, "{}{} has a central obscuration; only full circles can be imported", here(), words[0]);
         else if (const double radius = number(2); radius > 0)
             limit(radius), surface().drawn.is_hole = true;
     }
@@ -237,7 +238,7 @@ class ZmxReader {
 
     void finish() {
         if (surfaces.empty()) {
-            refuse(1, "is no lens in Zemax's format: no line begins with SURF");
+            refuse(1, "is not a lens in Zemax's format: no line begins with SURF");
             return;
         }
         // A file that Zemax wrote goes on behind its surfaces; one that ends within them, and within a line, is cut.
@@ -275,7 +276,8 @@ class ZmxReader {
         s.drawn.even_asphere.assign(s.parameters.begin() + 1, s.parameters.end());
         while (!s.drawn.even_asphere.empty() && s.drawn.even_asphere.back() == 0) s.drawn.even_asphere.pop_back();
         if (!fold_r2(s.drawn, s.parameters[0]))
-            refuse(s.line, "surface {} has PARM 1 = {}, a term in r^2 beside a conic of constant {}, which no surface here has",
+            refuse(s.line,
+                   "surface {} has PARM 1 = {}, a term in r^2 beside the conic constant {}, which surfaces here do not have",
                    number, s.parameters[0], s.drawn.conic);
     }
 

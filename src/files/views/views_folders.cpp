@@ -86,7 +86,7 @@ std::map<std::int64_t, fs::path> numbered_files(const fs::path& folder, const st
         if (!is_number(digits)) return;
         const auto [at, fresh] = files.emplace(std::stoll(digits), folder / name);
         if (!fresh)
-            throw InputError((folder / name).string(), fmt::format("has the number of {}, too", at->second.filename().string()));
+            throw InputError((folder / name).string(), fmt::format("has the same number as {}", at->second.filename().string()));
     });
     return files;
 }
@@ -151,7 +151,7 @@ std::vector<fs::path> in_order(const ByNumbers& files) {
 void add(ByNumbers& files, int a, int b, fs::path path) {
     const auto [at, fresh] = files.emplace(std::pair(a, b), path);
     if (!fresh)
-        throw InputError(path.string(), fmt::format("has the place in the grid of {}, too", at->second.filename().string()));
+        throw InputError(path.string(), fmt::format("has the same position in the grid as {}", at->second.filename().string()));
 }
 
 }  // namespace
@@ -194,13 +194,11 @@ std::optional<ViewsSource> row_column_views(const fs::path& folder) {
     std::erase_if(groups, [](const auto& group) { return group.second.size() < 2; });  // no grid
     if (groups.empty()) return {};
     if (groups.size() > 1)
-        throw InputError(
-            folder.string(),
-            fmt::format("has pictures of more than one name: {} and {}; say in a views.toml which of them are the views, as in "
-                        "pictures = \"{}*_*{}\"",
-                        groups.begin()->second.begin()->second.filename().string(),
-                        groups.rbegin()->second.begin()->second.filename().string(), groups.begin()->first.first,
-                        groups.begin()->first.second));
+        throw InputError(folder.string(), fmt::format("has pictures of more than one name: {} and {}; state in a views.toml which "
+                                                      "of them are the views, as in pictures = \"{}*_*{}\"",
+                                                      groups.begin()->second.begin()->second.filename().string(),
+                                                      groups.rbegin()->second.begin()->second.filename().string(),
+                                                      groups.begin()->first.first, groups.begin()->first.second));
     const ByNumbers& files = groups.begin()->second;
     const GridOfNames grid = whole_grid(folder, files, {"row", "column"});
     ViewsSource source;
@@ -271,7 +269,7 @@ std::optional<ViewsSource> stanford_views(const fs::path& folder) {
                                                NamedView{folder / name, number_of(part[4]), number_of(part[3])});
         if (!fresh)
             throw InputError((folder / name).string(),
-                             fmt::format("has the place in the grid of {}, too", at->second.path.filename().string()));
+                             fmt::format("has the same position in the grid as {}", at->second.path.filename().string()));
     });
     if (views.empty()) return {};
     ViewsSource source;

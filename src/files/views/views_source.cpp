@@ -66,7 +66,7 @@ ViewsSource find_views(const fs::path& path) {
         if (fs::exists(path / "parameters.cfg", error)) return detail::hci_views(path);
         if (std::optional<ViewsSource> found = detail::stanford_views(path)) return *found;
         if (std::optional<ViewsSource> found = detail::row_column_views(path)) return *found;
-        throw InputError(path.string(), fmt::format("holds no grid of views that is known; {}", forms));
+        throw InputError(path.string(), fmt::format("contains no grid of views in a known form; {}", forms));
     }
     if (path.extension() == ".toml") return detail::described_views(path);
     if (path.filename() == "parameters.cfg") return detail::hci_views(path.parent_path());
@@ -120,7 +120,7 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
         grid.distance_mm = *source.distance_mm * scale;
     else if (std::isinf(place.viewing_distance_mm))
         throw InputError(source.name,
-                         "does not say how far its cameras are from the focus, and the viewing distance is infinite; give "
+                         "does not state the distance from its cameras to the focus, and the viewing distance is infinite; give "
                          "--camera-distance-mm");
     else {
         grid.distance_mm = place.viewing_distance_mm - place.vertex_plane_mm - grid.depth_mm;
@@ -152,7 +152,7 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
         grid.camera_mm = in_cone(wish.cone_deg ? *wish.cone_deg : *source.cone_deg);
     } else if (!source.cameras.empty() && !source.in_mm) {
         throw InputError(source.name,
-                         "gives its cameras' places in a unit that is not known; give --baseline-mm from camera to camera, or "
+                         "gives its cameras' positions in an unknown unit; give --baseline-mm from camera to camera, or "
                          "--view-cone-deg that they span");
     } else if (!source.cameras.empty()) {
         grid.camera_mm = source.cameras;
@@ -166,7 +166,7 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
         grid.camera_mm = in_cone(source.cone_deg.value_or(of_display));
         if (!source.cone_deg)
             notes.push_back(
-                fmt::format("a view cone of {} degrees{}", of_display, place.view_cone_deg ? ", the display's own" : ""));
+                fmt::format("a view cone of {} degrees{}", of_display, place.view_cone_deg ? ", that of the display" : ""));
     }
     if (std::vector<Problem> faults = faults_of(grid); !faults.empty()) {
         for (Problem& fault : faults) fault.where = source.name + ": " + fault.where;

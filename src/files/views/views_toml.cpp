@@ -141,8 +141,8 @@ void read_cameras(ViewsReader& reader, ViewsSource& source) {
     const bool places = reader.has("camera_x_mm") || reader.has("camera_y_mm");
     if (int(reader.has("baseline_mm")) + int(places) + int(reader.has("view_cone_deg")) > 1)
         reader.refuse("baseline_mm",
-                      "is one of three ways to say where the cameras are, with camera_x_mm and camera_y_mm, and with "
-                      "view_cone_deg; give one of them");
+                      "is one of three ways to state the cameras' positions (the others: camera_x_mm with camera_y_mm, and "
+                      "view_cone_deg); give one of them");
     std::array<double, 2> baseline{};
     if (reader.read("baseline_mm", baseline)) {
         for (const double step : baseline)
@@ -175,7 +175,7 @@ void read_geometry(ViewsReader& reader, ViewsSource& source) {
     source.depth_mm = reader.number("depth_mm", any_length);
     source.for_display = true;
     const std::optional<double> height = reader.number("height_mm", positive_length);
-    if (height && !source.width_mm) reader.refuse("height_mm", "needs width_mm beside it");
+    if (height && !source.width_mm) reader.refuse("height_mm", "needs width_mm as well");
     if (height && source.width_mm) source.aspect = *source.width_mm / *height;
     if (source.cone_deg && source.distance_mm && source.cameras.empty() && source.columns > 0 && source.rows > 0)
         source.cameras =
@@ -189,7 +189,7 @@ void describe_quilt(const fs::path& toml, ViewsSource& source) {
     ViewsReader reader(toml);
     source.read.push_back(toml);
     for (const std::string_view key : picture_keys)
-        if (reader.has(key)) reader.refuse(key, "is not for a quilt, whose name says it");
+        if (reader.has(key)) reader.refuse(key, "is not for a quilt, whose name states it");
     if (reader.has("depth_pictures")) reader.refuse("depth_pictures", "is not for a quilt");
     const std::optional<double> aspect = source.aspect;
     read_geometry(reader, source);
@@ -215,7 +215,7 @@ ViewsSource described_views(const fs::path& toml) {
     read_geometry(reader, source);
     source.depth_unit_mm = reader.number("depth_unit_mm", positive_length).value_or(1);
     if (source.views() > 0 && !depths.empty() && !(source.distance_mm && source.width_mm && !source.cameras.empty()))
-        reader.refuse("depth_pictures", "need the cameras' places, distance_mm and width_mm beside them");
+        reader.refuse("depth_pictures", "need the cameras' positions, distance_mm and width_mm as well");
     const bool reversed = reader.flag("pseudoscopic");
     reader.report();
     if (source.views() > std::size_t(most_views))

@@ -26,7 +26,7 @@ std::string above_white(const float* light, std::int64_t pixels, int stride, Lig
     const std::string bits = greatest > 255 ? "16" : "8";
     return fmt::format(
         "holds light of up to {:.6g}, and white is 1{}{}", greatest,
-        of == LightOf::panel ? fmt::format(": it is shown {:.4g} times as bright as a panel can shine", greatest) : "",
+        of == LightOf::panel ? fmt::format(": it is shown {:.4g} times as bright as the panel's white", greatest) : "",
         codes ? fmt::format("; if these are codes of {} bits, save them as such (.png, or .npy of uint{}) and they are decoded",
                             bits, bits)
               : "; divide it by its greatest value, or give codes");

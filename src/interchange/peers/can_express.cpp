@@ -46,12 +46,11 @@ class Refusals {
     // Errors of single lenses, and a bow.
     void differing() {
         if (peer_ != Peer::pov)
-            return add(
-                "errors",
-                "let lenses differ, and this scene has one mesh for all of them and for what lies between them; give shift_mm, "
-                "gap_mm, rotation_deg, wedge_deg and pitch_ppm only, or export pov");
+            return add("errors",
+                       "make lenses differ, and this scene has one mesh for all lenses and one for the space between them; give "
+                       "shift_mm, gap_mm, rotation_deg, wedge_deg and pitch_ppm only, or export pov");
         if (options_.triangles)
-            return add("--triangles", "are those of one lens, and [errors] let lenses differ; leave it out for true surfaces");
+            return add("--triangles", "are those of one lens, and [errors] make lenses differ; leave it out for true surfaces");
         const double lenses = g_.lattice.count[0] * g_.lattice.count[1];
         if (lenses > most_pov_lenses)
             return add("errors",
@@ -92,7 +91,7 @@ class Refusals {
                 "differ, and the scene's glass has one index; give --channel r, g or b for that colour alone");
         else if (wavelengths_of(d_, *options_.channel).size() > 1)
             add("render.wavelength_samples",
-                "are several of a colour, and the scene's glass has one index; add --set render.wavelength_samples=1");
+                "are more than one for each colour, and the scene's glass has one index; add --set render.wavelength_samples=1");
     }
 
     void pov() {

@@ -41,8 +41,7 @@ struct FinePart {
         }
         if (area == 0)
             throw InputError("panel.aperture_ratio",
-                             "leaves subpixels so small that another renderer's panel image cannot show them; "
-                             "take a larger one");
+                             "makes subpixels too small for another renderer's panel image; take a larger value");
         return part.share / area;
     }
 };

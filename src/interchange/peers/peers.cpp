@@ -24,7 +24,7 @@ PeerScene scene_of(Peer peer, const Display& display, const Geometry& geometry, 
                                   [&](const PlacedSurface& s) { return s.semi_aperture_mm == surfaces.front().semi_aperture_mm; });
     if (!even && display.array.surround == Surround::opaque)
         scene.deviations.push_back(
-            "lens.surface.semi_aperture_mm: they differ; between them the scene has black walls and rings, lfdsim has nothing");
+            "lens.surface.semi_aperture_mm: they differ; between surfaces the scene has black walls and rings, lfdsim has none");
     if (options.triangles)
         scene.deviations.push_back(fmt::format("lenses are meshes of about {} triangles with {} normals", *options.triangles,
                                                options.normals == MeshNormals::flat ? "flat" : "smooth"));
@@ -50,7 +50,7 @@ PeerScene peer_scene(Peer peer, const Display& display, const Geometry& geometry
     const Display seen = at_wavelength(display, nm);
     PeerScene scene = scene_of(peer, seen, resolve(seen), options);
     constexpr const char* names[] = {"red", "green", "blue"};
-    scene.deviations.push_back(fmt::format("Only {} shines, with the indices at {} nm.", names[*options.channel], nm));
+    scene.deviations.push_back(fmt::format("Only {} emits light, with the indices at {} nm.", names[*options.channel], nm));
     return scene;
 }
 

@@ -66,34 +66,31 @@ std::vector<Setting> settings(const Display& display) {
 std::vector<Figure> figures(const Display& d, const Geometry& g) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> aperture(g.clear_aperture_mm.begin(), g.clear_aperture_mm.begin() + (differs_by_axis(d.array) ? 2 : 1));
-    return {{"gap_mm", {g.gap_mm}, "g, panel to the front principal plane"},
-            {"base_z_mm", {g.base_z_mm}, "lowest point of a lens"},
-            {"front_principal_mm", {g.front_principal_mm}, "panel-side principal plane"},
-            {"rear_principal_mm", {g.rear_principal_mm}, "viewer-side principal plane"},
-            {"vertex_plane_mm", {g.vertex_plane_mm}, "viewer-side vertex plane: depths count from here"},
-            {"top_z_mm", {g.top_z_mm}, "highest point of a lens"},
-            {"stop_z_mm", {g.stop_z_mm}, "plane of the aperture stop, if there is one"},
-            {"diffuser_z_mm", {g.diffuser_z_mm.value_or(none)}, "diffuser", "", "there is no diffuser"},
-            {"glass_radius_mm", {g.glass_radius_mm}, "radius of a lens"},
-            {"clear_aperture_mm", aperture, "D, clear aperture of a lens: its pupil as the viewer sees it"},
-            {"panel_width_mm", {g.panel_width_mm}, "panel, width"},
-            {"panel_height_mm", {g.panel_height_mm}, "panel, height"},
-            {"array_width_mm", {g.array_width_mm}, "lens array, width"},
-            {"array_height_mm", {g.array_height_mm}, "lens array, height"},
-            {"screen_field_deg", screen_field_deg(d, g),
-             "field of view of the screen from the camera's distance, horizontal and vertical",
-             "2 atan(w / 2E), w the lesser of the array's width and of the panel's, less g/E of it",
-             "the camera is inside the display or behind it"},
-            {"frame_width_mm", {g.frame_width_mm}, "camera's frame in the plane through its target, width"},
-            {"focus_distance_mm", {g.focus_distance_mm}, "camera's focus along the line of sight"},
-            {"content_depth_mm",
-             {g.content_depth_mm},
-             "depth of the model's centre, of objects midway between the nearest and the furthest"},
-            {"content_height_mm",
-             {g.content_height_mm.value_or(none)},
-             "height of the model",
-             "",
-             "each object has a height of its own"}};
+    return {
+        {"gap_mm", {g.gap_mm}, "g, panel to the front principal plane"},
+        {"base_z_mm", {g.base_z_mm}, "lowest point of a lens"},
+        {"front_principal_mm", {g.front_principal_mm}, "panel-side principal plane"},
+        {"rear_principal_mm", {g.rear_principal_mm}, "viewer-side principal plane"},
+        {"vertex_plane_mm", {g.vertex_plane_mm}, "viewer-side vertex plane: depths count from here"},
+        {"top_z_mm", {g.top_z_mm}, "highest point of a lens"},
+        {"stop_z_mm", {g.stop_z_mm}, "plane of the aperture stop, if there is one"},
+        {"diffuser_z_mm", {g.diffuser_z_mm.value_or(none)}, "diffuser", "", "there is no diffuser"},
+        {"glass_radius_mm", {g.glass_radius_mm}, "radius of a lens"},
+        {"clear_aperture_mm", aperture, "D, clear aperture of a lens: its pupil as the viewer sees it"},
+        {"panel_width_mm", {g.panel_width_mm}, "panel, width"},
+        {"panel_height_mm", {g.panel_height_mm}, "panel, height"},
+        {"array_width_mm", {g.array_width_mm}, "lens array, width"},
+        {"array_height_mm", {g.array_height_mm}, "lens array, height"},
+        {"screen_field_deg", screen_field_deg(d, g),
+         "field of view of the screen from the camera's distance, horizontal and vertical",
+         "2 atan(w / 2E), w the smaller of the array's width and the panel's over 1 + g/E",
+         "the camera is inside the display or behind it"},
+        {"frame_width_mm", {g.frame_width_mm}, "camera's frame in the plane through its target, width"},
+        {"focus_distance_mm", {g.focus_distance_mm}, "camera's focus along the line of sight"},
+        {"content_depth_mm",
+         {g.content_depth_mm},
+         "depth of the model's centre; of objects: midway between the nearest and the furthest"},
+        {"content_height_mm", {g.content_height_mm.value_or(none)}, "height of the model", "", "each object has its own height"}};
 }
 
 namespace {
@@ -145,11 +142,11 @@ std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory&
                                   ? std::min(lens_limit_per_mm(g, t, z, eye), pixel_limit_per_mm(d, g, z))
                                   : nan;
     return {{"by_lens_behind_mm", ends(by_lens.behind), "depth of field by the lens, behind the lenses", lens, none, interval},
-            {"by_lens_in_front_mm", ends(by_lens.in_front), "depth of field by the lens, in front of them, to the viewer at most",
-             lens, none, interval},
+            {"by_lens_in_front_mm", ends(by_lens.in_front),
+             "depth of field by the lens, in front of the lenses, to the viewer at most", lens, none, interval},
             {"by_pixel_behind_mm", ends(by_pixel.behind), "depth of field by the pixel, behind the lenses", pixel, none, interval},
             {"by_pixel_in_front_mm", ends(by_pixel.in_front),
-             "depth of field by the pixel, in front of them, to the viewer at most", pixel, none, interval},
+             "depth of field by the pixel, in front of the lenses, to the viewer at most", pixel, none, interval},
             {"at_the_lenses_per_degree",
              {cycles_per_degree(g, at_lenses, 0, eye)},
              "resolution limit at the lenses, as the eye sees it",
@@ -158,7 +155,7 @@ std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory&
             {"at_the_content_per_degree",
              {cycles_per_degree(g, at_content, z, eye)},
              "resolution limit of lenses and pixels at the content's depth, as the eye sees it",
-             "the lesser of E / 2p and (E - z) g / (2 a |z|) per radian",
+             "the smaller of E / 2p and (E - z) g / (2 a |z|) per radian",
              "the camera is inside the display or behind the content"}};
 }
 
@@ -181,16 +178,17 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
     std::vector<double> views_elemental = along(&AxisTheory::elemental_pitch_mm);
     for (double& views : views_elemental) views /= d.panel.pixel_pitch_mm * (g.lattice.strips ? g.lattice.cos_turn : 1);
     std::vector<Figure> all = {
-        {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, where an eye may move", "2 atan(p / 2g)"},
-        {"fov_exact_deg", along(&AxisTheory::fov_exact_deg), "the same through the layers on the panel, not paraxial",
+        {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, in which an eye may move", "2 atan(p / 2g)"},
+        {"fov_exact_deg", along(&AxisTheory::fov_exact_deg),
+         "field of view of one lens through the layers on the panel, not paraxial",
          "Snell's law, from p'/2 on the panel to the axis at the lens", "a glass lens has aberrations; analyze fov includes them"},
         {"fov_horizontal_deg",
          {t.fov_horizontal_deg},
          "field of view of strips along the panel's rows",
          "2 atan(p / (2 g cos(slant)))",
          "only strips have a slant"},
-        {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg), "the same by whole elemental images, as lfdsim new --fov-deg",
-         "2 atan(p' / 2g)"},
+        {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg),
+         "field of view of whole elemental images, as lfdsim new --fov-deg", "2 atan(p' / 2g)"},
         {"focal_length_mm", {t.focal_length_mm}, "f, focal length of a lens", "paraxial, of the lens's surfaces in air", pinhole},
         {"gap_mm", {t.gap_mm}, "g, gap", "panel to the front principal plane, layers by thickness / index"},
         {"central_depth_mm",
@@ -198,12 +196,12 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
          "L, central depth plane, from the rear principal plane",
          "1/L = 1/f - 1/g",
          pinhole},
-        {"pixel_image_mm", {t.pixel_image_mm}, "P_I, image of a panel pixel on it", "a |L| / g", pinhole},
+        {"pixel_image_mm", {t.pixel_image_mm}, "P_I, image of a panel pixel on the central depth plane", "a |L| / g", pinhole},
         {"depth_of_field_mm",
          {published_depth_mm(t)},
          "depth of field, as published",
          "2 |L| P_I / D, for ranges less deep than |L|",
-         pinhole_lens ? pinhole : "the published formula is for a range about L that does not reach the lenses"},
+         pinhole_lens ? pinhole : "the published formula holds for a range about L that does not reach the lenses"},
         {"depth_near_mm", {depth_mm(t.depth_near_per_mm)}, "", "1 / (1/L + a / (g D))", pinhole, Figure::Presentation::for_scripts},
         {"depth_far_mm", {depth_mm(t.depth_far_per_mm)}, "", "1 / (1/L - a / (g D))", pinhole, Figure::Presentation::for_scripts},
         {"depth_near_diopters",
@@ -218,30 +216,33 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
          pinhole}};
     for (Figure& f : sharpness(d, g, t)) all.push_back(std::move(f));
     const std::vector<Figure> rest{
-        {"views", along(&AxisTheory::views), "N, views across", "p / a, of strips along a row p / (a cos(slant))"},
-        {"views_elemental", views_elemental, "the same by whole elemental images: panel pixels across each",
-         "p' / a, of strips along a row p' / (a cos(slant))"},
+        {"views", along(&AxisTheory::views), "N, views across", "p / a; for strips, along a row, p / (a cos(slant))"},
+        {"views_elemental", views_elemental, "views of whole elemental images: panel pixels across each",
+         "p' / a; for strips, along a row, p' / (a cos(slant))"},
         {"view_step_deg", along(&AxisTheory::view_step_deg), "angle from view to view", "field of view / N"},
         {"viewing_zone_parallel_deg", along(&AxisTheory::viewing_zone_parallel_deg),
-         "zone that sees the whole screen, elemental images at lens pitch",
+         "angle within which the whole screen is seen, with elemental images at lens pitch",
          "2 atan(p / 2g - (m - 1) p / 2E), m lenses across, the eye at E", inside},
-        {"viewing_zone_deg", along(&AxisTheory::viewing_zone_deg), "zone that sees the whole screen from the camera's distance",
+        {"viewing_zone_deg", along(&AxisTheory::viewing_zone_deg),
+         "angle within which the whole screen is seen from the camera's distance",
          "2 atan(p' / 2g - (m - 1) p/2 |1/E - 1/D'|), made for D'", inside},
-        {"eyebox_mm", along(&AxisTheory::eyebox_mm), "its width for one lens, at the camera's distance", "E p' / g", inside},
+        {"eyebox_mm", along(&AxisTheory::eyebox_mm), "width of one lens's viewing zone at the camera's distance", "E p' / g",
+         inside},
         {"elemental_pitch_mm", along(&AxisTheory::elemental_pitch_mm), "p', pitch of the elemental images for the viewing distance",
          "p (1 + g / D')"},
         {"lens_sampling_limit_per_mm", along(&AxisTheory::lens_sampling_limit_per_mm), "resolution limit of the lens pitch",
          "1 / 2p"},
         {"pixel_image_limit_per_mm", {t.pixel_image_limit_per_mm}, "resolution limit of the panel pixels", "1 / 2 P_I", pinhole},
         {"gap_closing_diffuser_deg", closing(&AxisTheory::gap_closing_diffuser_deg),
-         "diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)", gaps ? pinhole : no_gaps},
-        {"gap_closing_here_deg", closing(&AxisTheory::gap_closing_here_deg), "angle that closes them from where the diffuser is",
-         "2 atan(p / 2d), d its height above the lenses' rims", gaps ? "there is no diffuser" : no_gaps}};
+         "angle of a diffuser at L that closes the gaps between lenses", "2 atan(p / 2 |L|)", gaps ? pinhole : no_gaps},
+        {"gap_closing_here_deg", closing(&AxisTheory::gap_closing_here_deg),
+         "angle that closes the gaps at the diffuser's distance", "2 atan(p / 2d), d its height above the lenses' rims",
+         gaps ? "there is no diffuser" : no_gaps}};
     all.insert(all.end(), rest.begin(), rest.end());
     if (const std::vector<double> shifts = colour_shifts_mm(d, t); !shifts.empty())
         all.push_back({"subpixel_shift_mm", shifts,
-                       "lateral shift of red, green and blue at the viewing distance, of content made for whole pixels",
-                       "distance of its subpixels from the pixel's centre x (D - z_H') / g"});
+                       "lateral shift of red, green and blue at the viewing distance, for content made for whole pixels",
+                       "distance of the subpixels from the pixel's centre x (D - z_H') / g"});
     return all;
 }
 

@@ -16,10 +16,10 @@ std::vector<Figure> largest_errors(const Display& d, const Geometry& g) {
         tilt = std::max(tilt, std::hypot(e.tilt_deg[0], e.tilt_deg[1]));
         curvature = std::max(curvature, std::abs(e.curvature));
     }
-    return {{"largest_decenter_mm", {aside}, "of a lens's axis from its place in the lattice"},
-            {"largest_height_mm", {height}, "of a lens's vertex over or under the others' plane, bow included"},
-            {"largest_tilt_deg", {tilt}, "of a lens's axis"},
-            {"largest_curvature_error", {curvature}, "of a lens's curvatures, as a share of them"}};
+    return {{"largest_decenter_mm", {aside}, "distance of a lens's axis from its lattice position"},
+            {"largest_height_mm", {height}, "height of a lens's vertex above or below the common plane, including bow"},
+            {"largest_tilt_deg", {tilt}, "tilt of a lens's axis"},
+            {"largest_curvature_error", {curvature}, "relative error of a lens's curvatures"}};
 }
 
 }  // namespace lfdsim

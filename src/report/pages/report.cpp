@@ -102,10 +102,10 @@ std::string settings(const ResultFolder& folder, const ReportAbout& about) {
                                     part.is_string() ? part.get<std::string>() : part.dump());
         html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(key), escaped(text));
     }
-    html += "</table></div>\n<p>The display's description, with all that options changed:</p>\n<pre>" + escaped(about.description) +
+    html += "</table></div>\n<p>The display's description, including changes by options:</p>\n<pre>" + escaped(about.description) +
             "</pre>\n";
-    return "<section id=\"settings\">\n<h2>Settings</h2>\n" + folded("The command, and all that the results depend on", html) +
-           "</section>\n";
+    return "<section id=\"settings\">\n<h2>Settings</h2>\n" +
+           folded("The command, and everything that the results depend on", html) + "</section>\n";
 }
 
 }  // namespace

@@ -153,9 +153,8 @@ std::string findings_section(const Json& all) {
         html += "</tr>\n";
     }
     return html +
-           "</table></div>\n<p>\"More than the errors\": more than the sum of the errors stated for both figures. Where there is "
-           "no "
-           "remark, at least one of them has no stated error.</p>\n</section>\n";
+           "</table></div>\n<p>\"More than the errors\": the difference is larger than the sum of the errors stated for both "
+           "figures. Where there is no remark, at least one figure has no stated error.</p>\n</section>\n";
 }
 
 /// Plots and pictures of a measure: those at the same position in each display's list next to each other.

@@ -123,10 +123,10 @@ void check_key(std::string_view override_text) {
                (whole.starts_with(key) && whole.substr(key.size()).starts_with('.'));
     };
     const auto refuse = [&](const char* what) { throw InputError(std::string(key), what); };
-    if (is_or_has("content.model")) refuse("is not for set: the message's \"shown\" says what is shown");
-    if (decides_a_file(key)) refuse("is not for set: a visitor names no files, and replaces no table or list that names some");
-    if (is_or_has("camera.position_mm")) refuse("is not for set: the message's \"eye_mm\" says where the eye is");
-    if (is_or_has("camera.resolution")) refuse("is not for set: the message's \"size\" says how many pixels there are");
+    if (is_or_has("content.model")) refuse("cannot be set: the message's \"shown\" states what is shown");
+    if (decides_a_file(key)) refuse("cannot be set: a visitor may not name files, nor replace a table or list that names files");
+    if (is_or_has("camera.position_mm")) refuse("cannot be set: the message's \"eye_mm\" states the eye's position");
+    if (is_or_has("camera.resolution")) refuse("cannot be set: the message's \"size\" states the number of pixels");
 }
 
 std::string position(const Vec3d& eye) { return fmt::format("camera.position_mm=[{}]", fmt::join(eye, ", ")); }

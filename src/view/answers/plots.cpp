@@ -34,8 +34,7 @@ Display small(Display d) {
 Plot fov_plot(const Display& display, const ContentScene& shown_there, const std::string& device, const Job& job) {
     if (const auto [columns, rows] = display.panel.pixels; columns * rows > most_panel_pixels)
         throw InputError("panel.pixels",
-                         fmt::format("{} x {} are too many for a plot that takes seconds, which is for 7680 x 4320 or "
-                                     "fewer; use lfdsim analyze fov",
+                         fmt::format("{} x {} are too many for this plot, which is limited to 7680 x 4320; use lfdsim analyze fov",
                                      columns, rows));
     // One at a time for all visitors: each takes all processors and up to two gigabytes.
     static std::timed_mutex mutex;

@@ -121,7 +121,7 @@ Probe probe(const Display& d, Place at) {
     const Sight sight = EyeRays(d, g).look_along(eye, to, 0, 0);
     if (!sight.through) {
         probe.says =
-            "No lens lets light of the panel through here: the eye looks between two lenses, or past them. Point at another place.";
+            "No lens transmits light of the panel here: the eye looks between two lenses, or past them. Point at another position.";
         return probe;
     }
     probe.lens = lens_of(g.lattice, sight.lens);

@@ -42,7 +42,7 @@ void Drawing::begin(const Wanted& wanted) {
 
 std::string Drawing::beside_problem() const {
     const bool can = wanted_.beside == Beside::none || eyes_.empty() || !eyes_[0].model.name.empty();
-    return can ? "" : "has nothing to photograph: what is shown was not made from a known model";
+    return can ? "" : "has nothing to photograph: the content shown was not made from a known model";
 }
 
 // The cost of all eyes; photographs beside them add a similar cost, which the pace learns.

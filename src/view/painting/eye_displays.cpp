@@ -25,7 +25,7 @@ EyeDisplay of_eye(const Library& library, const Wanted& wanted, const char* lane
         one.made_for_geometry = resolve(one.made_for);
         const auto& made = one.made_for.panel.pixels;
         if (made != display.panel.pixels)
-            throw InputError("panel.pixels", fmt::format("is [{}, {}], but the elemental images that are kept have {} x {} pixels",
+            throw InputError("panel.pixels", fmt::format("is [{}, {}], but the stored elemental images have {} x {} pixels",
                                                          display.panel.pixels[0], display.panel.pixels[1], made[0], made[1]));
     }
     one.key = panel_key(one.source, one.made_for, one.made_for_geometry);

@@ -39,14 +39,14 @@ Parsed parse(std::string_view text) {
     try {
         return Parsed::parse(text, check);
     } catch (const Parsed::parse_error& error) {
-        throw InputError("message", fmt::format("is not JSON in UTF-8: byte {} is the first that does not fit", error.byte));
+        throw InputError("message", fmt::format("is not JSON in UTF-8: byte {} is the first invalid one", error.byte));
     } catch (const Parsed::exception&) {  // a number too large
         throw InputError("message", "has a number that is not finite");
     }
 }
 
 [[noreturn]] void refuse(const std::string& where, const Parsed& given, const std::string& wanted) {
-    throw InputError(where, fmt::format("is {}, wanted is {}", shortened(given.dump()), wanted));
+    throw InputError(where, fmt::format("is {}, expected is {}", shortened(given.dump()), wanted));
 }
 
 double number(const Parsed& json, const std::string& where, double low, double high) {

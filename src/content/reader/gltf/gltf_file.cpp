@@ -25,7 +25,7 @@ std::size_t bytes_of_component(const Item& type) {
         case 5126:  // float
             return 4;
         default:
-            type.fail("is no type of numbers");
+            type.fail("is not a type of numbers");
     }
 }
 
@@ -37,7 +37,7 @@ std::size_t width_of(const Item& type) {
     if (name == "VEC4" || name == "MAT2") return 4;
     if (name == "MAT3") return 9;
     if (name == "MAT4") return 16;
-    type.fail("is no type of elements");
+    type.fail("is not a type of elements");
 }
 
 double component(std::size_t type, const char* bytes) {
@@ -132,7 +132,7 @@ GltfFile::GltfFile(std::string bytes, Open open) : bytes_(std::move(bytes)), ope
         throw std::runtime_error("its JSON is damaged" +
                                  (start < end && end < what.size() ? " " + what.substr(start, end - start) : ""));
     }
-    if (!description_.is_object()) throw std::runtime_error("its JSON is no object");
+    if (!description_.is_object()) throw std::runtime_error("its JSON is not an object");
     buffers_.resize(root_.at("buffers").size());
 }
 
@@ -257,7 +257,7 @@ void GltfFile::replace(AccessorValues& out, const Layout& at, const Item& sparse
     read(indices, view(*number_view), places.data());
     read(values, view(*value_view), elements.data());
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!(places[i] >= 0 && places[i] < double(at.count))) sparse.fail("names an element that is not there");
+        if (!(places[i] >= 0 && places[i] < double(at.count))) sparse.fail("refers to an element that does not exist");
         std::copy_n(&elements[i * at.width], at.width, &out.all[std::size_t(places[i]) * at.width]);
     }
 }

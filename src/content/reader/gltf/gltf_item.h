@@ -23,7 +23,7 @@ class Item {
     Item at(const char* key) const {
         static const Json none;
         if (json_->is_null()) return Item(none, inside(key));
-        if (!json_->is_object()) fail("is no object");
+        if (!json_->is_object()) fail("is not an object");
         const auto found = json_->find(key);
         return Item(found == json_->end() ? none : *found, inside(key));
     }
@@ -31,21 +31,21 @@ class Item {
     Item operator[](std::size_t i) const { return Item((*json_)[i], where_ + "[" + std::to_string(i) + "]"); }
     std::size_t size() const {
         if (json_->is_null()) return 0;
-        if (!json_->is_array()) fail("is no list");
+        if (!json_->is_array()) fail("is not a list");
         return json_->size();
     }
 
     double number(double otherwise) const {
         if (!is_there()) return otherwise;
         const double x = json_->is_number() ? json_->get<double>() : std::nan("");
-        if (!std::isfinite(x)) fail("is no number");
+        if (!std::isfinite(x)) fail("is not a number");
         return x;
     }
     std::size_t whole(std::size_t otherwise) const {
         if (!is_there()) return otherwise;
         // Some exporters write 3.0 for 3.
         const double x = number(0);
-        if (!(x >= 0 && x <= 9e15) || x != std::floor(x)) fail("is no whole number");
+        if (!(x >= 0 && x <= 9e15) || x != std::floor(x)) fail("is not a whole number");
         return std::size_t(x);
     }
     bool truth(bool otherwise) const {
@@ -55,7 +55,7 @@ class Item {
     }
     std::string text() const {
         if (!is_there()) return {};
-        if (!json_->is_string()) fail("is no text");
+        if (!json_->is_string()) fail("is not a text");
         return json_->get<std::string>();
     }
     template <std::size_t N>

@@ -47,7 +47,7 @@ void GltfMeshes::add(const Item& mesh, const Posing& posing) {
 
 void GltfMeshes::add_primitive(const Item& item, const Posing& posing) {
     std::size_t mode = item.at("mode").whole(4);
-    if (mode > 6) item.at("mode").fail("is no kind of primitive");
+    if (mode > 6) item.at("mode").fail("is not a kind of primitive");
     const auto position = file_.named(item.at("attributes").at("POSITION"), "accessors");
     if (!position) return;  // as the specification allows
     if (mode < 4) {
@@ -99,7 +99,8 @@ std::optional<AccessorValues> GltfMeshes::posed(const Primitive& primitive, cons
         const auto target = weight == 0 ? std::nullopt : file_.named(targets[t].at(attribute), "accessors");
         if (!target) continue;
         const AccessorValues moves = file_.numbers(*target);
-        if (moves.width != all->width || moves.count != all->count) target->fail("has not the size of what it moves");
+        if (moves.width != all->width || moves.count != all->count)
+            target->fail("does not have the size of the list that it displaces");
         for (std::size_t i = 0; i < moves.all.size(); ++i) all->all[i] += weight * moves.all[i];
     }
     return all;
@@ -120,7 +121,7 @@ std::vector<std::uint32_t> GltfMeshes::triangles(const Primitive& primitive, std
         order.resize(vertices);
         for (std::size_t i = 0; i < vertices; ++i) order[i] = std::uint32_t(i);
     }
-    if (mode == 4 ? order.size() % 3 != 0 : order.size() < 3) not_shown_.add("corners that make no triangle");
+    if (mode == 4 ? order.size() % 3 != 0 : order.size() < 3) not_shown_.add("corners that form no triangle");
     if (mode == 4) {
         order.resize(order.size() / 3 * 3);
         return order;
@@ -145,11 +146,12 @@ std::vector<Matrix> GltfMeshes::joint_matrices(const Primitive& primitive, const
         const Item joint_number = primitive.item.at("attributes").at(joint_name.c_str());
         const AccessorValues &joints = *joint_list, &weights = *weight_list;
         if (joints.width != 4 || weights.width != 4 || joints.count != vertices || weights.count != vertices)
-            joint_number.fail("has not four joints and weights for each vertex");
+            joint_number.fail("does not have four joints and weights for each vertex");
         for (std::size_t i = 0; i < joints.all.size(); ++i) {
             const double joint = joints.all[i], weight = weights.all[i];
             if (weight == 0) continue;
-            if (!(joint >= 0 && joint < double(posing.joints.size()))) joint_number.fail("names joints that are not in the skin");
+            if (!(joint >= 0 && joint < double(posing.joints.size())))
+                joint_number.fail("refers to joints that are not in the skin");
             sums[i / 4] = weighted_sum(sums[i / 4], weight, posing.joints[std::size_t(joint)]);
             totals[i / 4] += weight;
         }

@@ -55,7 +55,7 @@ GltfNodes::GltfNodes(const GltfFile& file) : file_(file) {
         for (std::size_t k = 0; k < children.size(); ++k) {
             file.named(children[k], "nodes");
             std::size_t& parent = parents_[children[k].whole(0)];
-            if (parent != no_parent) children[k].fail("is a child of another node, too");
+            if (parent != no_parent) children[k].fail("is also a child of another node");
             parent = i;
         }
     }
@@ -65,7 +65,7 @@ GltfNodes::GltfNodes(const GltfFile& file) : file_(file) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         std::vector<std::size_t> line;  // from this node up to one whose place is known
         for (std::size_t n = i; n != no_parent && !known[n]; n = parents_[n]) {
-            if (line.size() == nodes.size()) nodes[i].fail("is recursively its own child");
+            if (line.size() == nodes.size()) nodes[i].fail("is a descendant of itself");
             line.push_back(n);
         }
         for (; !line.empty(); line.pop_back()) {

@@ -32,7 +32,7 @@ std::optional<std::string> wrong_length(const std::filesystem::path& file) {
 
 std::string refusal(const std::string& says, const std::filesystem::path& file) {
     if (says.starts_with("No output meshes")) return wrong_length(file).value_or("has no triangles: nothing to show");
-    if (says.find("Failed to open file") != says.npos) return "is damaged, or not of the format that its name says";
+    if (says.find("Failed to open file") != says.npos) return "is damaged, or not of the format that its name states";
     return says;
 }
 

@@ -150,7 +150,7 @@ PlyFile::PlyFile(std::string_view bytes) {
             if (!(words >> element.name >> element.count)) throw std::runtime_error("its header has an element without a count");
             columns_.emplace_back();
         } else if (key == "property") {
-            if (elements.empty()) throw std::runtime_error("its header has a property of no element");
+            if (elements.empty()) throw std::runtime_error("its header has a property without an element");
             PlyProperty& property = elements.back().properties.emplace_back();
             words >> type;
             property.is_list = type == "list";

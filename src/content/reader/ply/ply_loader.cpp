@@ -221,7 +221,7 @@ const aiImporterDesc* PlyLoader::GetInfo() const {
 void PlyLoader::InternReadFile(const std::string& file, aiScene* scene, Assimp::IOSystem* io) {
     const auto bytes = whole_file(*io, file);
     if (!bytes) throw std::runtime_error("it cannot be opened");
-    if (!bytes->starts_with("ply")) throw std::runtime_error("it does not begin as PLY files do");
+    if (!bytes->starts_with("ply")) throw std::runtime_error("it does not begin like a PLY file");
     read_ply(*bytes, *scene, not_shown_);
 }
 
