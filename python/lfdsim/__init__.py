@@ -53,7 +53,7 @@ if TYPE_CHECKING:  # type checkers, which then know that there are no other name
 else:
 
     def __getattr__(name: str) -> object:
-        """lfdsim.study when it is first asked for: it imports pandas and scipy."""
+        """Imports lfdsim.study on first use, since it needs pandas and scipy."""
         if name == "study":
             return importlib.import_module("lfdsim.study")
         raise AttributeError(f"module 'lfdsim' has no attribute {name!r}")

@@ -110,7 +110,7 @@ def _unknown(key: str) -> UnknownKeyError:
 
 
 def _override(key: Any, value: Any) -> str:
-    """As the program's --set takes it."""
+    """An override in the form of the program's option --set."""
     if not text_of(key, "key") or "=" in key or not key.isprintable():
         raise _unknown(key)
     if value is not None:
@@ -125,7 +125,7 @@ def _override(key: Any, value: Any) -> str:
 
 
 def _tree(values: Mapping[str, Any]) -> Any:
-    """Nested dicts of dotted keys; where parts are numbers, a tuple."""
+    """Nested dicts from dotted keys; tuples where parts of keys are numbers."""
     parts: dict[str, Any] = {}
     for name, value in values.items():
         first, dot, rest = name.partition(".")

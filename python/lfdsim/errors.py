@@ -10,7 +10,7 @@ _KEY = re.compile(r"[a-z_]+(\.[a-z_0-9]+)*(\[\d+\])*\Z")
 
 
 class Problem(NamedTuple):
-    """One thing that is wrong."""
+    """A problem of the input."""
 
     where: str  # "tablet.toml:12:1", a key that was set, an argument, a file
     what: str
@@ -23,7 +23,7 @@ class Problem(NamedTuple):
 
 
 def _problem(where: str, what: str) -> Problem:
-    """Of a message of the program, whose options are arguments in Python: --eye-distance-mm is eye_distance_mm."""
+    """The problem that a message of the program states; its options are arguments in Python: --eye-distance-mm is eye_distance_mm."""
     where = "measure" if where == "MEASURE" else where.removeprefix("--set ")
     where, what = (_OPTION.sub(lambda option: option[1].replace("-", "_"), text) for text in (where, what))
     key, colon, rest = what.partition(": ")
@@ -55,7 +55,7 @@ class InputError(ValueError):
 
 
 class DisplayError(InputError):
-    """A description of a display that is wrong."""
+    """Invalid description of a display."""
 
 
 class UnknownKeyError(DisplayError, KeyError):

@@ -52,9 +52,9 @@ def analyze(
 ) -> Result:
     """Measures the display; measures() lists what can be measured.
 
-    angles_deg: of the views of the field of view, rising; depths_mm: of the model for the depth of field; default: as they suit.
-    viewing_distance_mm: of the eyes from the panel; default: the camera's. eye_distance_mm: between a viewer's two eyes.
-    wavelength_nm: for diffraction. size: (width, height) of the pictures that are compared: fewer pixels take less time.
+    angles_deg: angles of the views for the field of view, rising; depths_mm: depths of the model for the depth of field; both have defaults.
+    viewing_distance_mm: distance of the eyes from the panel; default: the camera's. eye_distance_mm: distance between a viewer's two eyes.
+    wavelength_nm: wavelength for diffraction. size: (width, height) of the pictures that are compared: fewer pixels take less time.
     The other arguments are those of render().
     """
     of = seen(

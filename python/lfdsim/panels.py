@@ -28,7 +28,7 @@ class Panel:
 
 
 def panel_of(panel: Any) -> tuple[NDArray[Any] | None, _core.Panel | None]:
-    """Pixels, or what is prepared, or neither."""
+    """Pixels, or a prepared panel, or neither."""
     if isinstance(panel, Panel):
         return None, panel._handle
     return (None if panel is None else pixels(panel, "panel")), None

@@ -67,7 +67,7 @@ def compare_photograph(
     crop: Corners | None = None,
     encoding: str = "srgb",
 ) -> PhotographComparison:
-    """How alike a view and a photograph of the real display are: `lfdsim compare --corners`. The real camera stood where the view's is.
+    """The similarity of a view and a photograph of the real display: `lfdsim compare --corners`. The real camera was at the position of the view's.
 
     view: as render() returns it. photograph: (height, width, 3), uint8 or uint16 codes in `encoding` ("srgb" or "linear"), upright;
         or floats, linear light that no white limits.

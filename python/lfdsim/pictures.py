@@ -136,7 +136,7 @@ def photograph(
 
 
 def compare(a: ArrayLike, b: ArrayLike, *, crop: Corners | None = None, encoding: str = "srgb") -> dict[str, float]:
-    """How alike two pictures of one size are: what `lfdsim compare --json` prints, "ssim" among it; "psnr_db" may be inf.
+    """The similarity of two pictures of the same size: what `lfdsim compare --json` prints, including "ssim"; "psnr_db" may be inf.
 
     Floats are linear light; uint8 and uint16 are codes in `encoding`, "srgb" or "linear".
     """

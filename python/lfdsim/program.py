@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def path() -> Path:
-    """Of the program `lfdsim`: in the package, or, in a build of the repository, two folders above."""
+    """The path of the program `lfdsim`: in the package, or, in a build of the repository, two folders above."""
     here = Path(__file__).absolute().parent
     for place in (here / "bin" / "lfdsim", here.parent.parent / "lfdsim"):
         if place.is_file():

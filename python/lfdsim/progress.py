@@ -18,7 +18,7 @@ _WIDTH = 40  # of the bar in a terminal, characters
 
 @contextlib.contextmanager
 def shown(progress: Progress) -> Iterator[Report | None]:
-    """What long work reports to. None: a bar where somebody may see it; True, False: always, never; or a function of one's own.
+    """The receiver of progress of long work. None: a bar if standard error is visible to a user; True, False: always, never; or a function.
 
     Work of less than 50 ms reports nothing.
     """

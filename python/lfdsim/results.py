@@ -1,4 +1,4 @@
-"""What a measure found."""
+"""Results of a measure."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Result:
 
     @cached_property
     def remarks(self) -> list[str]:
-        """What bounds a figure, or where it differs from theory and why."""
+        """Remarks on what bounds a figure, or on where and why it differs from theory."""
         return self._measured.remarks()
 
     @cached_property
@@ -67,7 +67,7 @@ class Result:
 
     @property
     def seconds(self) -> float:
-        """What measuring took."""
+        """The time that measuring took."""
         return self._measured.seconds()
 
     def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> None:

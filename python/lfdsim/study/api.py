@@ -1,4 +1,4 @@
-"""What programs call: each step of a study by itself, and all of them."""
+"""The programming interface: each step of a study separately, and all of them together."""
 
 from __future__ import annotations
 

@@ -92,7 +92,7 @@ def tolerance(
     """Draws the errors whose sizes the display's [errors] states, and measures each draw.
 
     Errors of the array (shift, gap, rotation, pitch, wedge, bow) are normal about zero, and what the display states is their standard
-    deviation; those of each lens are drawn anew each time. `alone`: draws of each error by itself, at half, once and twice its size (None: a fifth of
+    deviation; those of each lens are drawn anew each time. `alone`: draws of each error alone, at half, once and twice its size (None: a fifth of
     `draws`; 0: none, and no budget). `measures`: names (`picture`: likeness to the scene), or tables as in a study's file. `losses`: what
     `percent` of all displays must keep; the budget says which sizes allow that. `set`: keys of the description with other values, sizes
     of errors among them, as in {"errors.gap_mm": 0.02}; as the program's --set.

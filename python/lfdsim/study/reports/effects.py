@@ -1,4 +1,4 @@
-"""Which factor does what to a figure: regression, Sobol indices, interactions, yield, Pareto front. Statistics are SciPy's."""
+"""The effect of each factor on a figure: regression, Sobol indices, interactions, yield, Pareto front. Statistics are SciPy's."""
 
 from __future__ import annotations
 
