@@ -22,7 +22,8 @@ double zero_between(std::size_t K, double low, double high) {
 
 using Zeros = std::array<std::vector<double>, max_wavelength_samples + 1>;
 
-/// By degree. Between two zeros is one of the next lower degree, and none is beyond sqrt(2 K + 1).
+/// Zeros of the Hermite polynomials by degree. Between two neighbouring zeros lies one of the next lower degree, and none is
+/// beyond sqrt(2 K + 1).
 Zeros all_zeros() {
     Zeros all;
     for (std::size_t degree = 1; degree < all.size(); ++degree) {

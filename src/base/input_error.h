@@ -7,7 +7,8 @@
 
 namespace lfdsim {
 
-/// One thing that is wrong: where (file:line:column, a TOML key, an option, a file), what, what was given and what is allowed.
+/// A problem of the input: where (file:line:column, a TOML key, an option, a file), what is wrong, what was given and what is
+/// allowed.
 struct Problem {
     std::string where;
     std::string what;

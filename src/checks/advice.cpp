@@ -23,7 +23,8 @@ void advise_on_lenses(Advised& a) {
     const Geometry& g = a.geometry;
     const Theory& t = a.theory;
 
-    // With ten times the gap the image of the panel is a virtual one a tenth farther than the panel itself, and hardly larger.
+    // At a focal length of ten times the gap the image of the panel is a virtual one, a tenth farther away than the panel itself
+    // and hardly larger.
     const bool pinhole = d.lens.type() == LensType::pinhole;
     if (!pinhole && !(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
         a.say(

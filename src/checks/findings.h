@@ -36,11 +36,11 @@ class Findings {
 
 inline constexpr double rounding_mm = 1e-9;  // of sums of lengths up to a metre
 
-/// All of validate(). A reader may run first and name the keys that it could not read; they are checked no further. Where it could
-/// not read the glasses, lenses have no place, and what depends on it is not checked.
+/// Runs all checks of validate(). A reader may run first and name the keys that it could not read; these are not checked further.
+/// If it could not read the glasses, lenses have no positions, and whatever depends on them is not checked.
 void validate_all(const Display&, Findings&, bool glasses_known);
 
-// Its steps, in order.
+// The steps of validate_all(), in order.
 void validate_values(const Display&, Findings&);   // each key by itself: ranges, NaN, counts, keys that exclude or need one another
 void validate_panel(const Display&, Findings&);    // whether its subpixels make sense together
 void validate_content(const Display&, Findings&);  // whether each object of a scene is one thing of one size, lit from somewhere

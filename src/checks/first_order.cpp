@@ -52,7 +52,8 @@ std::vector<Problem> out_of_range(const DesignRequest& r) {
     return all;
 }
 
-/// In front of the lenses by a tenth of the viewing distance; for an eye too near to see the lenses sharply, a metre behind them.
+/// Returns the depth of the central depth plane, mm from the lenses: a tenth of the viewing distance in front of them; for an eye
+/// too near to see the lenses sharply, a metre behind them.
 double chosen_depth_mm(const DesignRequest& r) { return r.distance_mm < nearest_sight_mm ? -1000 : rounded(r.distance_mm / 10); }
 
 /// N, the panel pixels behind a lens, and the rule that sets it. From an eye at distance E a lens subtends p/E, the image of a
@@ -177,7 +178,7 @@ std::optional<Problem> design(FirstOrder& o) {
             diffuser.angle_deg[k] = rounded(2 * std::atan(spacing[k] / (2 * diffuser.distance_mm)) / degree);
     }
     d.content.depth_mm = L;
-    // To the eye as high as half the panel; no higher than |L|, as it may be as deep as high.
+    // From the eye the content is as high as half the panel, but no higher than |L|, as it may be as deep as high.
     d.content.height_mm = rounded(std::min(height / 2 * (o.eye_mm - L) / o.eye_mm, std::abs(L)));
     d.content.viewing_distance_mm = D;
     if (const std::vector<Problem> problems = validate(d); !problems.empty())

@@ -60,7 +60,7 @@ inline constexpr int fewest_views = 4, fewest_lenses = 10;
 
 /// Lengths are written to a nanometre: finer than lenses are made, and fine enough for a distant central depth plane.
 double to_nanometre(double mm);
-/// To three digits, for lengths that need no more.
+/// Returns a length rounded to three digits, where more are not needed.
 double rounded(double);
 
 /// A valid display that meets the request. Throws InputError with the option of `lfdsim new` as `where`, what is allowed, and the

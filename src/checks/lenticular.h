@@ -50,7 +50,7 @@ struct Lenticular {
     bool two_view;  // its gap follows from the eyes
 };
 
-/// From an eye to the other, and the largest angle of a lens that the eye hardly sees by itself.
+/// The distance between a viewer's eyes, and the largest angle of a lens that the eye hardly resolves.
 inline constexpr double usual_eyes_mm = 65, lens_arc_minutes = 5;
 
 /// A valid display that meets the request. Throws InputError with the option of `lfdsim new` as `where`, and what is possible.

@@ -9,7 +9,7 @@ constexpr double least_index = 1, greatest_index = 4;
 
 std::string named(const Glass& glass) { return glass.name.empty() ? "the glass" : fmt::format("\"{}\"", glass.name); }
 
-// At the first wavelength where something is wrong; the others are mostly wrong in the same way.
+// Checks a glass at each wavelength that is used and reports the first problem; the other wavelengths mostly have the same one.
 void check_wavelengths(const std::string& where, const Glass& glass, const Display& d, Findings& findings) {
     for (int channel = 0; channel < 3; ++channel)
         for (const auto& [nm, weight] : wavelengths_of(d, channel)) {

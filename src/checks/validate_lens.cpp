@@ -77,7 +77,7 @@ class LensCheck {
                          *lens.stop_radius_mm, array.pitch_mm.least(), inner_radius_mm(array));
     }
 
-    // Of a plano-convex lens: its cap is part of a ball, which must cover the aperture and not reach the flat face.
+    // Checks a plano-convex lens: its cap is part of a sphere, which must cover the aperture and not reach the flat face.
     void check_ball(const PlanoConvex& ball) {
         const double R = ball.sphere_radius_mm, r = glass_radius_mm(ball.aperture_radius_mm, array), h = ball.cylinder_height_mm;
         const bool corner = r > ball.aperture_radius_mm.value_or(0);

@@ -35,8 +35,8 @@ class ErrorsCheck {
     }
 
   private:
-    /// Those that a lens without freedom to move, or a tracer that knows no such motion, cannot have; a glued one may still move
-    /// sideways and be turned.
+    /// Refuses the errors that a lens without freedom to move, or a surround without a tracer for them, cannot have; a glued lens
+    /// may still move sideways and be rotated.
     void refuse_all(std::string_view why, bool sideways) {
         const std::string what = fmt::format("is given, but {}; leave it out", why);
         const auto one = [&](const char* key, bool given) { refuse(key, given, what); };

@@ -31,7 +31,7 @@ struct Medium {
     bool may_be_air;
     bool is_passed;  // light meets it: not what a prescription names after its last surface
 };
-/// From the panel upwards.
+/// Returns the media of a display, from the panel upwards.
 std::vector<Medium> media_of(const Display&);
 
 /// Whether the path of light depends on its wavelength: an index differs between those that are used.

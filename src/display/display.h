@@ -109,7 +109,8 @@ struct Lens {
     bool operator==(const Lens&) const = default;
 };
 
-/// From lens to lens along the array's own x (0) and y (1). A description has one number where both are the same.
+/// The distances between neighbouring lenses along the array's own x (0) and y (1), mm. A description has one number where both
+/// are the same.
 struct Pitch : std::array<double, 2> {
     Pitch() : array{} {}
     Pitch(double both) : array{both, both} {}
@@ -163,7 +164,7 @@ struct ContentLight {
     bool operator==(const ContentLight&) const = default;
 };
 
-/// One thing of a scene: a mesh, or a picture on a rectangle.
+/// An object of a scene: a mesh, or a picture on a rectangle.
 struct SceneObject {
     std::string model;                // mesh file, as content.model; one of the two is given, the other empty
     std::string image;                // picture file

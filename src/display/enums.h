@@ -6,7 +6,8 @@ namespace lfdsim {
 
 // Enough for any lens maker's prescription, and the most that the kernels hold.
 inline constexpr decltype(sizeof 0) max_surfaces = 16, max_asphere_terms = 8, max_layers = 8;
-// Of a panel's cell; a rectangle that hangs over the border of its cell is stored in parts.
+// The most subpixels of a panel's cell, and the most parts of them; a rectangle that extends over the border of its cell is
+// stored in parts.
 inline constexpr int max_subpixels = 32, max_subpixel_parts = 64;
 
 /// The most of render.wavelength_samples, and of the files that glass_catalogues may name.

@@ -57,7 +57,7 @@ struct ShippedGlass {
     std::string_view source;
     std::string_view successor = {};  // of an older glass: the one of the same glass code whose data stand for it
 };
-/// All of them: plastics first, then glasses by name.
+/// Returns all glasses that ship: plastics first, then glasses by name.
 const std::vector<ShippedGlass>& shipped_glasses();
 
 /// The one of a name, whatever its case; null if there is none.

@@ -197,7 +197,7 @@ struct FormatTable {
     };
     std::vector<Value> values;
 };
-/// All of them, of every kind, in the order of a description; the first is the top level, "".
+/// Returns the tables of every kind, in the order of a description; the first is the top level, "".
 const std::vector<FormatTable>& format_tables();
 
 /// The key at a dotted path ("lens.surface.0.conic"), of any kind, with a fresh value; null if there is none.

@@ -19,7 +19,7 @@ struct LensError {
     bool operator==(const LensError&) const = default;
 };
 
-/// One that a table gives: lens (i, j), counted from 0 to the right and upwards.
+/// The error of one lens as a table gives it: lens (i, j), counted from 0 to the right and upwards.
 struct GivenLensError {
     std::int64_t i = 0, j = 0;
     LensError error;
@@ -27,7 +27,7 @@ struct GivenLensError {
 };
 
 struct Errors {
-    // Of the whole array
+    // Errors of the whole array
     std::array<double, 2> shift_mm{};   // along the panel's x and y
     double gap_mm = 0;                  // towards the viewer
     double rotation_deg = 0;            // counter-clockwise as the viewer sees it
@@ -35,7 +35,7 @@ struct Errors {
     std::array<double, 2> wedge_deg{};  // turn about the panel's x, then about its y, right-handed
     double bow_mm = 0;                  // how much the middle of the array stands out over its corners
 
-    // Of each lens: standard deviations of normal distributions, redrawn beyond three of them
+    // Errors of each lens: standard deviations of normal distributions, redrawn beyond three of them
     double decenter_sd_mm = 0;  // along x' and y'
     double height_sd_mm = 0;
     double tilt_sd_deg = 0;  // about x' and y'

@@ -8,26 +8,27 @@
 
 namespace lfdsim {
 
-/// Bands of less contrast (Michelson's) go unnoticed beside the picture's own steps from lens to lens.
+/// The contrast (Michelson) below which bands are not noticeable beside the picture's steps from lens to lens.
 inline constexpr double visible_band_contrast = 0.1;
 
-/// z, mm from the panel, of the plane that cuts off light as a viewer sees it: of the pupil, where an aperture inside the lens
-/// limits it; else of the stop before the lens, or of the lens's rim; of a lens that fills its cell, in the middle of the sides
-/// across the array's own x (axis 0) or y (1).
+/// Returns z, mm from the panel, of the plane that limits light as a viewer sees it: of the pupil, where an aperture inside the
+/// lens limits it; else of the stop before the lens, or of the lens's rim; for a lens that fills its cell, in the middle of the
+/// sides across the array's own x (axis 0) or y (1).
 double aperture_plane_mm(const Display&, const Geometry&, std::size_t axis);
 
-/// The diffuser's full angle (full width at half maximum, if gaussian) that joins the lenses from `height_mm` above that plane:
-/// 2 atan(p / 2 height). Lines of sight are then spread over just one lens pitch.
+/// Returns the diffuser's full angle (full width at half maximum, if gaussian), degrees, that closes the gaps between lenses from
+/// `height_mm` above that plane: 2 atan(p / 2 height). Lines of sight are then spread over exactly one lens pitch.
 double gap_closing_angle_deg(double pitch_mm, double height_mm);
 
-/// How far, along the display's x and y, a diffuser spreads lines of sight in that plane so that no band is left, mm: from lens to
-/// lens and from row to row; of strips from one to the next along the panel's rows, or along its columns where that is nearer, and
-/// 0 along the other. Exact for boxes and arrays that are not turned.
+/// Returns the spread of lines of sight in that plane, mm along the display's x and y, that leaves no band: from lens to lens and
+/// from row to row; for strips from one to the next along the panel's rows, or along its columns if that is shorter, and 0 along
+/// the other. Exact for boxes and arrays that are not rotated.
 std::array<double, 2> joining_spread_mm(const Geometry&);
 
-/// Michelson contrast, along the array's own x and y, of the light of a white panel across one lens pitch (of the row pitch along
-/// y), averaged over 1/32 of it and along the other axis (of staggered rows over one row), as an eye sees it from far away on the
-/// axis. By the apertures and the diffuser alone. NaN along strips.
+/// Returns the Michelson contrast, along the array's own x and y, of the light of a white panel across one lens pitch (of the row
+/// pitch along y), averaged over 1/32 of it and along the other axis (of staggered rows over one row), as an eye sees it from far
+/// away on the axis. It considers the apertures and the diffuser only (docs/model.md, "Dark bands between lenses"). NaN along
+/// strips.
 std::array<double, 2> band_contrast(const Display&, const Geometry&);
 
 }  // namespace lfdsim

@@ -10,11 +10,11 @@
 
 namespace lfdsim {
 
-/// How a surface bends rays: as a glass surface of revolution about the lens's axis, or as the plane of an ideal thin lens.
+/// Form of a surface: a glass surface of revolution about the lens's axis, or the plane of an ideal thin lens.
 enum class SurfaceForm { revolution, thin };
 
-/// A surface in place. z is that of its vertex on the axis; the sag s(r) adds to it. A thin lens has no sag, and air on both
-/// sides.
+/// A surface with its position. z_mm is that of its vertex on the axis, from the panel; the sag s(r) adds to it. A thin lens has
+/// no sag, and air on both sides.
 struct PlacedSurface {
     double z_mm;
     double curvature_per_mm;
@@ -26,7 +26,7 @@ struct PlacedSurface {
     double focal_length_mm = 0;  // of a thin lens
 };
 
-/// A plate on the panel.
+/// A plane plate on the panel.
 struct PlacedLayer {
     double thickness_mm, index;
 };
@@ -72,7 +72,7 @@ struct Geometry {
     std::optional<double> content_height_mm;  // absent: as high as the objects make it
 };
 
-/// Along one of the array's own axes, p its pitch there.
+/// Paraxial figures along one of the array's own axes, p its pitch there. Equations: docs/model.md, "Theory".
 struct AxisTheory {
     double fov_deg;                     // 2 atan(p / 2g)
     double fov_exact_deg;               // of the ray from p'/2 to the axis at the principal point, by Snell; NaN for glass lenses
@@ -92,7 +92,7 @@ struct AxisTheory {
 struct Theory {
     std::array<AxisTheory, 2> along;  // the array's own x and y; of strips, which do nothing along y, that is NaN
     double fov_horizontal_deg;        // of strips along the panel's rows, 2 atan(p / (2 g cos(slant))); NaN for others
-    // Of pinholes, which have no image plane, all but the gap is NaN.
+    // For pinholes, which have no image plane, all of these but the gap are NaN.
     double focal_length_mm;
     double gap_mm;
     double central_depth_mm;   // L, from the rear principal plane; negative: virtual
@@ -105,30 +105,32 @@ struct Theory {
     double pixel_image_limit_per_mm;  // 1 / 2 P_I
 };
 
-/// All problems of a description, each with its TOML key ("lens.index") as `where`. Empty: valid.
+/// Returns all problems of a description, each with its TOML key ("lens.index") as `where`; none if it is valid.
 std::vector<Problem> validate(const Display&);
 
 /// Resolves a valid description, in the light of the green channel. Throws InputError with validate()'s problems otherwise.
 Geometry resolve(const Display&);
-/// Resolves a display in light of another wavelength, its parts at their places for green: indices, focal length, principal
-/// points, gap and reduced lengths are those of that light.
+/// Resolves a display in light of another wavelength, 100 to 10000 nm. Positions are those for green; indices, focal length,
+/// principal points, gap and reduced lengths are those of that light. Throws InputError as the other resolve().
 Geometry resolve(const Display&, double wavelength_nm);
 
 Theory theory(const Display&, const Geometry&);
 
-/// The eye's distance from the panel that theory and measures assume: the camera's from the panel's centre.
+/// Returns the eye's distance from the panel that theory and measures assume, mm: that of the camera from the panel's centre.
 double eye_distance_mm(const Display&);
 
-/// The depth whose inverse is given, mm from the rear principal plane towards the viewer; infinite for 0.
+/// Returns the depth 1/per_mm, mm from the rear principal plane towards the viewer; infinite for 0.
 double depth_mm(double per_mm);
 
-/// Whether theory calls a depth sharp, z from the rear principal plane.
+/// Returns whether theory calls a depth sharp by the pixel, |1/z - 1/L| <= a/(g D); z from the rear principal plane.
 bool is_sharp(const Theory&, double z_mm);
 
-/// Sag z - z_vertex in mm of a surface at distance s from its axis: c s^2/(1 + sqrt(1 - (1+k) c^2 s^2)) + a4 s^4 + ...
+/// Returns the sag z - z_vertex, mm, of a surface at distance s, mm, from its axis: c s^2/(1 + sqrt(1 - (1+k) c^2 s^2)) + a4 s^4
+/// + ..., c in 1/mm; NaN where it is not real.
 double sag_mm(double curvature, double conic, const std::vector<double>& even_asphere, double s);
 
-/// An eye must be farther from the panel than this, mm: in front of the diffuser, the lenses and their principal plane.
+/// Returns the least distance of an eye from the panel, mm: it must be in front of the diffuser, the lenses and their principal
+/// plane.
 double nearest_eye_mm(const Geometry&);
 
 }  // namespace lfdsim

@@ -22,29 +22,32 @@ struct Lattice {
     bool staggered, hexagonal, strips;        // hexagonal ones are staggered, too
 };
 
-/// Rows alternate by half a pitch (hexagon, brick).
+/// Returns whether rows alternate by half a pitch (hexagon, brick).
 bool is_staggered(const LensArray&);
 
-/// Cylindrical lenses side by side.
+/// Returns whether the array consists of cylindrical lenses side by side.
 bool is_strips(const LensArray&);
 
 /// Axes of the array's frame along which the lenses image: strips do so along x' alone.
 inline int imaging_axes(const LensArray& array) { return is_strips(array) ? 1 : 2; }
 
-/// Whether figures that depend on the pitch differ between the array's own x and y, and are reported for each.
+/// Returns whether figures that depend on the pitch differ between the array's own x and y, and are reported for each.
 bool differs_by_axis(const LensArray&);
 
-/// From lens to lens along x' and from row to row along y', mm; of strips, which are one row, as far as they reach over the panel.
+/// Returns the distance between neighbouring lenses along x' and between rows along y', mm; strips form one row, whose "pitch"
+/// along y' is their length over the panel.
 std::array<double, 2> spacing_mm(const Panel&, const LensArray&);
 
-/// Lenses along x' and y': as given, or the least that cover the panel. At most 1e10, also of sizes without bounds.
+/// Returns the number of lenses along x' and y': array.count, or the smallest that covers the panel (docs/model.md, "Lens array
+/// and surround"). At most 1e10, also for unbounded sizes.
 std::array<std::int64_t, 2> lens_count(const Panel&, const LensArray&);
 
-/// The box about all cells, along x' and y', mm.
+/// Returns the size of the box about all cells along x' and y', mm.
 std::array<double, 2> array_size_mm(const Panel&, const LensArray&);
 
-/// Radii of the largest disk within a cell and of the smallest around it (of strips both p/2), mm.
+/// Returns the radius of the largest disk within a cell, mm; of strips p/2.
 double inner_radius_mm(const LensArray&);
+/// Returns the radius of the smallest disk around a cell, mm; of strips p/2.
 double outer_radius_mm(const LensArray&);
 
 Lattice<double> make_lattice(const Panel&, const LensArray&);

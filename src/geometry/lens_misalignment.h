@@ -7,24 +7,24 @@
 
 namespace lfdsim {
 
-/// Whether the lenses of the array differ from each other in more than their place in the lattice.
+/// Returns whether the lenses of the array differ from each other in more than their lattice positions.
 bool lenses_differ(const Errors&);
-/// Whether the array is not parallel to the panel.
+/// Returns whether the array is not parallel to the panel.
 bool is_wedged(const Errors&);
-/// Whether the lenses do not stand alike in a lattice parallel to the panel: each then has a place of its own.
+/// Returns whether the lenses are displaced individually, so that they do not form a lattice parallel to the panel.
 bool is_irregular(const Errors&);
-/// Whether there are any errors.
+/// Returns whether any error is not zero.
 bool has_errors(const Errors&);
 
-/// The display that a description asks for.
+/// Returns the display as described, with all errors removed.
 Display without_errors(Display);
-/// Whether what is shown is made for that one, though the display has errors.
+/// Returns whether content is made for the display without errors, though the display has errors.
 bool knows_no_errors(const Display&);
 
-/// By which the lenses stand further apart than described.
+/// Returns the factor by which the lenses' positions are stretched about the array's centre, 1 + pitch_ppm 1e-6.
 inline double pitch_scale(const Errors& e) { return 1 + e.pitch_ppm * 1e-6; }
 
-/// How far errors of single lenses may go: three standard deviations and the most that the table gives.
+/// The range of the errors of single lenses: three standard deviations plus the extremes of the table.
 struct LensErrorBounds {
     std::array<double, 2> aside_mm{};  // either way
     double height_mm[2] = {0, 0};      // lowest and highest
@@ -33,15 +33,15 @@ struct LensErrorBounds {
 };
 LensErrorBounds bounds(const LensArray&, const Errors&);
 
-/// The errors of each lens, row by row from the lower left, are what is drawn and what the table gives together. A pure
-/// function of seed, lens and quantity, without library functions, so that all machines draw the same.
+/// Returns the errors of each lens, row by row from the lower left: the random errors plus those of the table. A pure function of
+/// seed, lens and quantity, without library functions, so that all machines draw the same numbers.
 std::vector<LensError> lens_errors(const Display&, const Lattice<double>&);
 
-/// How much a lens stands out by the array's bow: (1 - rho^2) of it, rho its distance from the array's centre over that of the
-/// corners; of strips over half the width. `x`, `y`: of its axis from the centre, mm.
+/// Returns the height, mm, by which the array's bow b raises a lens: b (1 - rho^2), rho its distance from the array's centre over
+/// that of the corners; of strips over half the width. `x`, `y`: position of its axis from the centre, mm.
 double raised_mm(const Errors&, const Lattice<double>&, double x, double y);
 
-/// Lenses in an array whose lenses differ from each other.
+/// The greatest number of lenses in an array whose lenses differ from each other.
 inline constexpr double most_different_lenses = 4e6;
 
 }  // namespace lfdsim

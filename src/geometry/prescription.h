@@ -7,31 +7,33 @@
 
 namespace lfdsim {
 
-/// Principal planes and focal length of surfaces with air on both sides, where principal and nodal points are the same.
-/// An afocal lens has infinite focal length; its points are then a pair of nodal points, the first in the first vertex.
+/// Principal planes and focal length of surfaces with air on both sides, where principal and nodal points coincide, from the
+/// paraxial matrix. An afocal lens has infinite focal length; its points are then a pair of nodal points, the first in the first
+/// vertex.
 struct Cardinal {
     double focal_length_mm;
     double front_principal_mm, rear_principal_mm;  // z, in the frame of the surfaces
 };
 Cardinal cardinal_points(const std::vector<PlacedSurface>&);
 
-/// The radius r of a plano-convex or ideal lens: as given; of lenses that fill their cells at least as far as the corners.
+/// Returns the radius r of a plano-convex or ideal lens, mm: as given; of lenses that fill their cells at least the distance to
+/// the corners.
 double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const LensArray&);
 
-/// The lens's surfaces with the first vertex in z = 0, panel side first, in light of a wavelength.
+/// Returns the lens's surfaces for light of a wavelength, panel side first, with the first vertex in z = 0.
 std::vector<PlacedSurface> prescription(const Lens&, const LensArray&, double wavelength_nm);
 
-/// Lowest and highest sag within the semi-aperture. NaN where the sag is not real.
+/// Returns the lowest and highest sag within the semi-aperture, mm; NaN where the sag is not real.
 std::array<double, 2> sag_range_mm(const PlacedSurface&);
 
-/// Least axial distance from one surface up to another within both semi-apertures; negative where they cross.
+/// Returns the least axial distance from one surface up to another within both semi-apertures, mm; negative where they cross.
 double clearance_mm(const PlacedSurface& lower, const PlacedSurface& upper);
 
-/// The lens mirrored in the plane of the panel, for tracing light from the panel: its first surface, from the panel, is then the
-/// highest, and all its z are negative.
+/// Returns the lens mirrored in the plane of the panel, for tracing light from the panel: its first surface, from the panel, is
+/// then the highest, and all its z are negative.
 Geometry turned_over(Geometry);
 
-/// resolve() without validate(): for an invalid description some figures are NaN or wrong.
+/// Resolves a description without validate(): for an invalid description some figures are NaN or wrong.
 Geometry resolve_unchecked(const Display&);
 
 }  // namespace lfdsim

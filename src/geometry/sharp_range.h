@@ -6,46 +6,49 @@
 
 namespace lfdsim {
 
-/// Depths from `low` to `high`, mm from the viewer-side vertex plane, positive in front of it; `low` may be minus infinity.
-/// NaN: none.
+/// A range of depths from `low` to `high`, mm from the viewer-side vertex plane, positive in front of it; `low` may be minus
+/// infinity. NaN: empty.
 struct DepthSpan {
     double low, high;
     bool empty() const { return !(low <= high); }
     bool holds(double depth) const { return low <= depth && depth <= high; }
 };
 
-/// The depths of one interval. Nothing is in front of the lenses beyond the viewer.
+/// The sharp depths behind the lenses and in front of them. In front they end at the viewer.
 struct SharpRange {
     DepthSpan behind, in_front;
     bool holds(double depth) const { return behind.holds(depth) || in_front.holds(depth); }
 };
 
-/// Holds all z with far <= 1/z <= near, z from the rear principal plane towards the viewer, 1/mm. Where the signs of the two
-/// ends differ, the depths go through infinity: they begin at some distance on either side, and the lenses themselves are not
-/// among them.
+/// Returns the range of all z with far <= 1/z <= near, z from the rear principal plane towards the viewer, 1/mm. Where the signs
+/// of the two ends differ, the depths go through infinity: they begin at some distance on either side, and the lenses themselves
+/// are not among them.
 SharpRange range_of_inverse(const Geometry&, double near_per_mm, double far_per_mm, double eye_mm);
 
-/// Holds all z from low to high.
+/// Returns the range of all z from low to high, mm from the rear principal plane.
 SharpRange range_between(const Geometry&, double low_mm, double high_mm, double eye_mm);
 
-/// By the pixel: where a lens's spot is no wider than the image of a panel pixel, D |1 - z/L| <= a |z|/g.
+/// Returns the depth of field by the pixel: where a lens's spot is no wider than the image of a panel pixel, D |1 - z/L| <= a
+/// |z|/g.
 SharpRange sharp_by_pixel(const Geometry&, const Theory&, double eye_mm);
 
-/// By the lens: where a lens's spot is no wider than the lens pitch, D |1 - z/L| <= p, along the axis of the wider D. What is
-/// shown there is as fine as the lenses stand, however fine the pixels are. Contains the lenses, where the spot is D wide.
+/// Returns the depth of field by the lens: where a lens's spot is no wider than the lens pitch, D |1 - z/L| <= p, along the axis
+/// of the wider D. Detail there is as fine as the lens pitch, however fine the pixels are. Contains the lenses, where the spot is
+/// D wide.
 SharpRange sharp_by_lens(const Display&, const Geometry&, const Theory&, double eye_mm);
 
-/// "from 21.5 to 280 mm in front of the lenses", or of two intervals "from 70 mm behind the lenses to infinity and from 90 mm
-/// in front of the lenses to the viewer"; "no depth as far as the viewer" of none.
+/// Describes a range in words: "from 21.5 to 280 mm in front of the lenses", or for two intervals "from 70 mm behind the lenses
+/// to infinity and from 90 mm in front of the lenses to the viewer"; "no depth up to the viewer" for none.
 std::string depths_in_words(const Geometry&, const SharpRange&, double eye_mm);
 
-/// The finest detail by theory at a depth, cycles per mm: half a cycle per lens pitch, seen in that plane from the eye's
-/// distance `eye_mm` from the panel, and half a cycle per image of a panel pixel.
+/// Returns the limit of resolution by the lens pitch at a depth, cycles per mm in that plane: half a cycle per lens pitch, E/(2 p
+/// (E - z)), seen from the eye's distance `eye_mm` from the panel.
 double lens_limit_per_mm(const Geometry&, const Theory&, double depth_mm, double eye_mm);
+/// Returns the limit of resolution by the panel pixels at a depth, cycles per mm: half a cycle per image of a pixel, g/(2 a |z|).
 double pixel_limit_per_mm(const Display&, const Geometry&, double depth_mm);
 
-/// Cycles per degree that an eye, `eye_mm` from the panel, sees of cycles per mm at a depth: by the small-angle rule, at the
-/// middle of the screen.
+/// Returns the cycles per degree that an eye, `eye_mm` from the panel, sees of cycles per mm at a depth: (E - z) pi/180 times
+/// these, by the small-angle approximation, at the middle of the screen.
 double cycles_per_degree(const Geometry&, double per_mm, double depth_mm, double eye_mm);
 
 }  // namespace lfdsim

@@ -1,4 +1,4 @@
-// Where each colour of a panel shines. Floor 0.
+// Positions at which each colour of a panel emits. Floor 0.
 //
 // The panel is a grid of pixels, and a cell of some pixels repeats over it. Positions are in pixels to the right of and below the
 // cell's top left corner. docs/model.md, "Subpixels".
@@ -12,35 +12,35 @@
 
 namespace lfdsim {
 
-/// One pixel of each cell of so many columns and rows, counted from the cell's first; a neighbouring cell's where that lies
-/// outside.
+/// The pixels of a panel at one position of every cell of `cell` columns and rows, counted from the cell's first pixel; a
+/// position outside the cell lies in a neighbouring one.
 struct PanelPlane {
     std::array<int, 2> cell{1, 1}, pixel{0, 0};
     std::array<bool, 2> whole{};  // black in cells that the panel's right border (x) or lower border (y) cuts
     auto operator<=>(const PanelPlane&) const = default;
 };
 
-/// A part of a subpixel that lies in one cell. Where a subpixel hangs over the cell's border it has several parts.
+/// A part of a subpixel that lies in one cell. A subpixel that extends beyond the cell's border has several parts.
 struct LitPart {
     int channel;                     // 0, 1, 2; 3: all colours
     PanelPlane plane;                // the cell after which it repeats, and the pixel whose light it shows
     std::array<double, 2> from, to;  // x and y
     double share;                    // of its channel's light: areas of the panel over that of all parts of the channel
 
-    /// How much brighter it is than its pixel's light.
+    /// Returns how many times brighter it is than its pixel's light, so that a white panel is white in the mean.
     double brightness() const { return share * plane.cell[0] * plane.cell[1] / ((to[0] - from[0]) * (to[1] - from[1])); }
 };
 
-/// The parts of all subpixels of a valid panel, shrunk to its aperture ratio, each in the least cell after which its channel
-/// repeats.
+/// Returns the parts of all subpixels of a valid panel, shrunk to its aperture ratio, each in the smallest cell after which its
+/// channel repeats.
 std::vector<LitPart> lit_parts(const Panel&);
 
-/// The subpixels of a panel that ends: beyond its right and lower border nothing shines, also where the border cuts a cell and
-/// a rectangle of a pixel on the panel lies there. What of a part lies beyond is a part of its own, whose plane is black in
-/// such cells.
+/// Returns the parts of the subpixels of a bounded panel: beyond its right and lower border nothing emits, also where the border
+/// cuts a cell and a rectangle of a pixel on the panel lies there. The area of a part beyond the border is a separate part, whose
+/// plane is black in such cells.
 std::vector<LitPart> bounded_parts(const Panel&);
 
-/// What counts of red, green and blue in a figure; the sum is 1.
+/// Weights of red, green and blue in a figure; the sum is 1.
 using ChannelWeights = std::array<double, 3>;
 inline constexpr ChannelWeights luminance_weights{0.2126, 0.7152, 0.0722};  // of linear sRGB
 constexpr ChannelWeights only(std::size_t channel) {
@@ -49,17 +49,17 @@ constexpr ChannelWeights only(std::size_t channel) {
     return weights;
 }
 
-/// A white panel of which red, green and blue count with these weights.
+/// A white panel whose red, green and blue light counts with given weights.
 class WhitePanel {
   public:
     WhitePanel(const Panel&, const ChannelWeights&);
-    /// At a place, in pixels to the right of and below the panel's top left corner.
+    /// Returns the weighted light at a position, in pixels to the right of and below the panel's top left corner.
     double at(double column, double row) const;
     double mean() const { return weights_[0] + weights_[1] + weights_[2]; }
-    /// The amplitude of its wave with (k, l) periods in a cell().
+    /// Returns the amplitude of its harmonic with (k, l) periods in a cell(), c_kl of docs/measures.md, "Moire".
     std::complex<double> harmonic(int k, int l) const;
     std::array<int, 2> cell() const { return cell_; }
-    /// Up to this order harmonics are not small.
+    /// Returns the order along each axis up to which harmonics are not small.
     std::array<int, 2> highest_order() const { return highest_; }
 
   private:
@@ -70,43 +70,43 @@ class WhitePanel {
     std::array<int, 2> cell_{1, 1}, highest_{};
 };
 
-/// The planes of a panel's parts, each once; the first is the panel itself.
+/// Returns the planes of a panel's parts, each once; the first is the panel itself.
 std::vector<PanelPlane> planes(const Panel&);
 
-/// Whether every point of a pixel shines in the pixel's own colour.
+/// Returns whether every point of a pixel emits the pixel's colour, so that there are no subpixels and no black matrix.
 bool shines_all_over(const Panel&);
 
-/// How much brighter than the pixel's light a point shines that shines at all in a channel (0, 1, 2), so that white is white in
-/// the mean: the cell's area over that of the channel's subpixels in it.
+/// Returns how many times brighter than the pixel's light the subpixels of a channel (0, 1, 2) emit, so that a white panel is
+/// white in the mean: the cell's area over that of the channel's subpixels in it.
 double gain(const Panel&, int channel);
 
-/// The largest gain.
+/// Returns the largest gain of the three channels.
 double peak(const Panel&);
 
-/// Where the pixel (column, row) shines in a channel: rectangles from its centre, pixels to the right and down. None where the
-/// channel has no subpixel there.
+/// A rectangle in which a pixel emits: from its centre, pixels to the right and down. lit_rects() returns those of the pixel
+/// (column, row) in a channel; none where the channel has no subpixel there.
 struct LitRect {
     std::array<double, 2> from, to;
     double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
 };
 std::vector<LitRect> lit_rects(const Panel&, int channel, std::int64_t column, std::int64_t row);
 
-/// The middle of a channel's light of the pixel (column, row), from the pixel's centre: pixels to the right and down. Nothing
-/// where the channel has no subpixel there.
+/// Returns the centroid of a channel's light of the pixel (column, row), from the pixel's centre: pixels to the right and down;
+/// nothing where the channel has no subpixel there.
 std::optional<std::array<double, 2>> centroid(const Panel&, int channel, std::int64_t column, std::int64_t row);
 
-/// For what places of its pixels a display's elemental images are made, as numbers that can be compared: the cell's size, and
-/// centroid() of all of its pixels and channels; 99 where there is none. Empty: for the pixels' centres.
+/// Returns the positions in its pixels for which a display's elemental images are made, as comparable numbers: the cell's size,
+/// and centroid() of all of its pixels and channels; 99 where there is none. Empty: the pixels' centres.
 std::vector<double> shown_places(const Display&);
 
-/// The cell and the subpixels of a layout before they are shrunk. Of `none` there are none, in a cell of one pixel.
+/// The cell and the subpixels of a layout before they are shrunk. The layout `none` has no subpixels, in a cell of one pixel.
 struct SubpixelCell {
     std::array<std::int64_t, 2> size;
     std::vector<Subpixel> subpixels;
 };
 SubpixelCell subpixel_cell(const Panel&);
 
-/// The numbers of two subpixels of a custom layout that overlap, here or in a cell repeated; twice the same one where it
+/// Returns the numbers of two subpixels of a custom layout that overlap, here or in a repeated cell; the same number twice if one
 /// overlaps its own repetition.
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel&);
 

@@ -378,7 +378,8 @@ LFDSIM_FN void pass_glass(const TracedDisplay<Scalar<F>>& display, const Bodies&
     if (display.has_stop) bodies.end(stop_ahead, arrived);
 }
 
-/// From the vertex plane of the first surfaces, in which passage.ray starts, to the panel.
+/// Traces rays through lenses in a clear or plate surround to the panel. passage.ray starts in the vertex plane of the first
+/// surfaces.
 template <class F>
 LFDSIM_FN PanelPoint<F> trace_glass(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Passage<F> passage) {

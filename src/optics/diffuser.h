@@ -6,15 +6,15 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// The angle in radians for a number uniform in [-1, 1]: box or normal distribution, the normal one cut at +-89 degrees.
-/// `box` promises the first.
+/// Returns the scattering angle, radians, for a number uniform in [-1, 1]: u omega/2 for a box, sigma sqrt(2) erfinv(u erf(89
+/// degrees/(sigma sqrt 2))) for a normal distribution cut at +-89 degrees (docs/model.md, "Diffuser"). `box` promises the first.
 template <bool box = false, class F>
 LFDSIM_FN F diffuser_angle(const TracedDisplay<Scalar<F>>& display, int axis, F uniform) {
     if (box || display.diffuser_profile == Profile::box) return uniform * F(display.half_angle[axis]);
     return F(display.half_angle[axis]) * erfinv(uniform * F(display.gaussian_tail[axis]));
 }
 
-/// The tangent of that angle.
+/// Returns the tangent of diffuser_angle().
 template <class F>
 LFDSIM_FN F diffuser_tangent(const TracedDisplay<Scalar<F>>& display, int axis, F uniform) {
     F sine, cosine;
@@ -36,6 +36,8 @@ LFDSIM_FN Vec3<F> turn(Vec3<F> i, F sin_a, F cos_a, F sin_b, F cos_b) {
     return {x, cos_b * i.y - sin_b * z, sin_b * i.y + cos_b * z};
 }
 
+/// Returns the direction of a ray after the diffuser, t = Rx(b) Ry(a) i, for two numbers uniform in [-1, 1]; axis 0 spreads
+/// horizontally, axis 1 vertically.
 template <bool box = false, class F>
 LFDSIM_FN Vec3<F> scatter(const TracedDisplay<Scalar<F>>& display, Vec3<F> to, F uniform_a, F uniform_b) {
     F sin_a, cos_a, sin_b, cos_b;

@@ -9,7 +9,7 @@
 
 namespace lfdsim::optics {
 
-/// One fact does not hold, holds, or is not known: then the display is asked.
+/// Knowledge of a fact at compile time: it does not hold, it holds, or the display has to be asked at run time.
 enum class Known : std::int8_t { no, yes, ask };
 
 /// A partly known display.

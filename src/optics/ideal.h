@@ -4,7 +4,9 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// From the plane of the lens to the panel: slope on the panel's side = slope on the viewer's side + q / f.
+/// Traces a ray through an ideal lens or a pinhole and on to the panel. The ray starts in the lens's plane, and its slope (dx/dz,
+/// dy/dz) changes to slope + q/f, q its distance from the axis, mm; layers then refract it. Ends rays outside the aperture, the
+/// stop or the array.
 template <class F>
 LFDSIM_FN PanelPoint<F> trace_ideal(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Passage<F> passage) {

@@ -16,32 +16,35 @@ struct Cell {
     F i, j;
 };
 
-/// A point or a vector of the array's frame or, where it says so, of the display's; mm.
+/// A vector with components along x and y: a point or a difference, in mm, in the array's frame or, where a function says so, in
+/// the display's.
 template <class F>
 struct Vec2 {
     F x, y;
 };
 
-// From a lens's axis.
+// Functions of positions relative to the base lens's axis, mm in the array's frame.
 
-/// Along x' (axis 0) or y' (1) alone: the number of the column or row of cells that contains `place`.
+/// Returns the number of the column (axis 0) or row (axis 1) of cells that contains `place`, along x' or y' alone:
+/// floor(place/pitch + 1/2).
 template <class F>
 LFDSIM_FN F cell_along(const Lattice<Scalar<F>>& lattice, int axis, F place) {
     return floor(place * F(lattice.per_pitch[axis]) + F(Scalar<F>(0.5)));
 }
 
-/// 1 for odd numbers, 0 for even ones.
+/// Returns 1 for odd whole numbers and 0 for even ones.
 template <class F>
 LFDSIM_FN F parity(F number) {
     return number - F(2) * floor(F(Scalar<F>(0.5)) * number);
 }
 
-/// The axes of row j are this far to the right of those of even rows.
+/// Returns the shift of the axes in row j to the right of those in even rows, mm: half a pitch in odd rows.
 template <class F>
 LFDSIM_FN F stagger(const Lattice<Scalar<F>>& lattice, F j) {
     return parity(j) * F(lattice.half_pitch[0]);
 }
 
+/// Returns the axis of the lens in a cell: (i p_x + stagger(j), j p_y), mm; strips have y' = 0.
 template <class F>
 LFDSIM_FN Vec2<F> axis_of(const Lattice<Scalar<F>>& lattice, Cell<F> cell) {
     const F x = cell.i * F(lattice.pitch[0]);
@@ -54,10 +57,12 @@ template <class S>
 struct Borders {
     S x, y, half;
 };
+/// Returns the number of pairs of opposite borders of a cell: 2 of a rectangle, 3 of a hexagon, 1 of a strip.
 template <class S>
 LFDSIM_FN int border_pairs(const Lattice<S>& lattice) {
     return lattice.hexagonal ? 3 : lattice.strips ? 1 : 2;
 }
+/// Returns a pair of borders, counted from 0: normal to x', then to y', or, of hexagons, at 60 and 120 degrees.
 template <class S>
 LFDSIM_FN Borders<S> borders(const Lattice<S>& lattice, int pair) {
     if (pair == 0) return {S(1), S(0), lattice.half_pitch[0]};
@@ -65,6 +70,8 @@ LFDSIM_FN Borders<S> borders(const Lattice<S>& lattice, int pair) {
     return {S(pair == 1 ? 0.5 : -0.5), S(0.86602540378443865), lattice.half_pitch[0]};  // at 60 and 120 degrees
 }
 
+/// Returns the cell that contains the point (x, y): by one floor along each axis, of hexagons by a second comparison with the
+/// oblique border.
 template <class F>
 LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
     if (!lattice.staggered) return {cell_along(lattice, 0, x), lattice.strips ? F(0) : cell_along(lattice, 1, y)};
@@ -82,24 +89,27 @@ LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
     return {select(beyond, i_above, i), select(beyond, below + F(1), below)};
 }
 
-/// The cell on the other side of a border of `cell`: of this pair, on this side (-1 or +1), at x' = place.
+/// Returns the neighbour of `cell` across a border: pair as in borders(), side -1 or +1; in staggered rows the neighbour at x' =
+/// place.
 template <class F>
 LFDSIM_FN Cell<F> cell_beyond(const Lattice<Scalar<F>>& lattice, Cell<F> cell, F pair, F side, F place) {
     const Mask<F> in_row = pair == F(0);
     const F i = select(in_row, cell.i + side, cell.i), j = select(in_row, cell.j, cell.j + side);
     if (!lattice.staggered) return {i, j};
-    // In the next row a hexagon's neighbours are shifted by half a pitch to the right and to the left.
+    // A hexagon's neighbours in the next row are shifted by half a pitch to the right and to the left.
     const F x = lattice.hexagonal ? axis_of(lattice, cell).x + select(pair == F(1), side, -side) * F(lattice.half_pitch[0]) : place;
     return {select(in_row, i, cell_along(lattice, 0, x - stagger(lattice, j))), j};
 }
 
-/// How far a cell reaches along y' from its axis.
+/// Returns the greatest distance of a cell's points from its axis along y', mm: to the corner of a hexagon, to the border of a
+/// rectangle.
 template <class S>
 LFDSIM_FN S reach_of_cell(const Lattice<S>& lattice) {
     return lattice.hexagonal ? lattice.half_pitch[0] * S(1.1547005383792515) : lattice.half_pitch[1];  // 2/sqrt(3) to the corner
 }
 
-/// The part of a distance along y' that counts for a lens's form: none of strips, whose section is the same everywhere.
+/// Returns the part of a distance along y' on which a lens's sag depends: all of it, or 0 for strips, whose section is the same
+/// everywhere.
 template <class F>
 LFDSIM_FN F across(const Lattice<Scalar<F>>& lattice, F y) {
     return lattice.strips ? F(0) : y;
@@ -116,8 +126,10 @@ LFDSIM_FN Mask<F> in_cell(const Lattice<Scalar<F>>& lattice, F x, F y, F margin 
     return (abs(x) <= half_x) && (abs(y) <= F(lattice.half_pitch[1]) + margin);
 }
 
-// From the array's middle.
+// Functions of positions from the array's centre, mm in the array's frame.
 
+/// Returns the axis of lens (i, j), docs/model.md, "Lens array and surround": ((i + 1/2 - n_x/2) p_x, (j + 1/2 - n_y/2) p_y),
+/// staggered rows shifted by -+p_x/4.
 template <class S>
 LFDSIM_FN Vec2<S> axis_in_array(const Lattice<S>& lattice, Cell<S> lens) {
     const S x = (lens.i + S(0.5) - S(0.5) * lattice.count[0]) * lattice.pitch[0],

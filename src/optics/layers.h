@@ -6,7 +6,9 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// From the layers' top down to the panel: a ray that comes from air, or of the lanes in `glued` is in the top layer already.
+/// Traces a ray from the top of the layers down to the panel by Snell's law and returns its end, mm; `to` becomes its direction
+/// in the lowest layer, and `weight` is multiplied by the transmittances. Rays of the lanes in `glued` are already in the top
+/// layer, all others come from air.
 template <class F>
 LFDSIM_RARE Vec2<F> through_layers(const TracedDisplay<Scalar<F>>& display, Vec2<F> at, Mask<F> glued, Vec3<F>& to, F& weight,
                                    Mask<F>& alive) {

@@ -10,7 +10,8 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// A packet of rays on its path through the array.
+/// A packet of rays on its path through the array: position and direction, the cell of the lens, the share of radiance that is
+/// left, and which of the rays have not ended.
 template <class F>
 struct Passage {
     Ray<F> ray;  // from the lens's axis and the surface's vertex
@@ -19,7 +20,7 @@ struct Passage {
     Mask<F> alive;
 };
 
-/// The lattice, whose kind is a constant where it is known.
+/// Returns the lattice, with the kind of cells as a compile-time constant where the facts state it.
 template <Facts facts, class S>
 LFDSIM_FN decltype(auto) lattice_of(const TracedDisplay<S>& display) {
     if constexpr (facts.strips == Known::ask || facts.staggered == Known::ask) {
@@ -46,13 +47,15 @@ LFDSIM_FN void assume(const TracedDisplay<S>& display) {
     if (facts.strips == Known::no && display.lattice.strips) __builtin_unreachable();
 }
 
-/// Surface k, counted from the viewer's side.
+/// Returns the shape of surface k, counted from 0 on the viewer's side.
 template <Facts facts, class S>
 LFDSIM_FN Shape shape_of(const TracedDisplay<S>& display, int k) {
     if (facts.plano_convex == Known::yes) return k == 0 ? Shape::sphere : Shape::plane;
     return display.surface[k].shape;
 }
 
+/// Intersects rays with a surface of revolution. `in_vertex_plane` starts in the plane of its vertex (at.z = 0, mm from the axis)
+/// and goes down; a plane is met at the start.
 template <class F, class Surface>
 LFDSIM_FN Hit<F> meet(Shape shape, const Surface& surface, Ray<F> in_vertex_plane) {
     if (shape == Shape::plane) {
@@ -82,7 +85,8 @@ LFDSIM_FN Hit<F> meet_cylinder(Shape shape, const Surface& surface, const Ray<F>
     return hit;
 }
 
-/// Surface k.
+/// Intersects rays with surface k of the display's lens, counted from 0 on the viewer's side, or with its triangles if it is
+/// meshed.
 template <Facts facts, class F>
 LFDSIM_FN Hit<F> meet(const TracedDisplay<Scalar<F>>& display, int k, Ray<F> in_vertex_plane) {
     if constexpr (facts.meshed == Known::yes)
@@ -93,7 +97,8 @@ LFDSIM_FN Hit<F> meet(const TracedDisplay<Scalar<F>>& display, int k, Ray<F> in_
                    : meet(shape_of<facts>(display, k), display.surface[k], in_vertex_plane);
 }
 
-/// Within the walls of its cell? Those of a round lens are its surfaces' semi-apertures, which `ok` has tested.
+/// Returns whether points on a surface lie within the walls of the lens's cell. The walls of a round lens are its surfaces'
+/// semi-apertures, which `ok` has tested.
 template <Facts facts, class F>
 LFDSIM_FN Mask<F> inside_cell(const TracedDisplay<Scalar<F>>& display, Vec3<F> at, Mask<F> ok) {
     if (facts.plain_light == Known::yes || display.aperture == Aperture::circle) return ok;

@@ -12,18 +12,19 @@ template <class F>
 struct LensPose {
     F x, y, z, curvature, cos_x, sin_x, cos_y, sin_y;
 
-    /// A vector of the array's frame in the lens's, and back.
+    /// Transforms a vector of the array's frame to the lens's frame: the transpose of Ry(tilt_y) Rx(tilt_x).
     LFDSIM_FN Vec3<F> turned_in(Vec3<F> v) const {
         const F x1 = v.x * cos_y - v.z * sin_y, z1 = v.x * sin_y + v.z * cos_y;
         return {x1, v.y * cos_x + z1 * sin_x, z1 * cos_x - v.y * sin_x};
     }
+    /// Transforms a vector of the lens's frame to the array's: Ry(tilt_y) Rx(tilt_x) v (docs/model.md, "Errors").
     LFDSIM_FN Vec3<F> turned_out(Vec3<F> v) const {
         const F y1 = v.y * cos_x - v.z * sin_x, z1 = v.y * sin_x + v.z * cos_x;
         return {v.x * cos_y + z1 * sin_y, y1, z1 * cos_y - v.x * sin_y};
     }
 };
 
-/// The poses of lenses in these cells; where `there` is false, of any.
+/// Returns the poses of the lenses in these cells; where `there` is false, that of an arbitrary lens.
 template <class F>
 LFDSIM_FN LensPose<F> pose_of(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Cell<F> cell,
                               Mask<F> there) {
@@ -77,7 +78,7 @@ LFDSIM_FN Hit<F> meet_curved(const TracedDisplay<Scalar<F>>& display, int k, con
                                                        : meet(shape, surface, in_vertex_plane);
 }
 
-/// z of the highest rim of a lens's surfaces, or of the lowest.
+/// Returns z of the highest rim of a lens's surfaces, or of the lowest, mm from the panel; `factor` multiplies its curvatures.
 template <class F>
 LFDSIM_FN F outmost_rim(const TracedDisplay<Scalar<F>>& display, bool highest, F factor) {
     if (!display.misaligned.curved) return F(highest ? display.zone_top : display.wall_bottom);

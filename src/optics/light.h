@@ -66,7 +66,7 @@ class Fetching {
     template <int quarter>
     LFDSIM_FN F light(const float* texels) const {
         if constexpr (N == 1) {
-            // All four are one load.
+            // The four numbers of a texel are one load.
             const void* const texel = __builtin_assume_aligned(texels + std::size_t(index_[0]) * 4, 16);
             return F(static_cast<const float*>(texel)[quarter]) * weight_;
         } else {

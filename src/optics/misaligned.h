@@ -195,8 +195,8 @@ LFDSIM_FN Encounter<F> enter_misaligned(const TracedDisplay<Scalar<F>>& display,
         in_cell(display.lattice, from_axis.x, from_axis.y, margin) && in_cell(display.lattice, end.x, end.y, margin);
     Mask<F> astray = alive && !alone;
     if (any(astray)) {
-        // One that comes within r of another axis begins there, ends there, or has passed the foot of the perpendicular from it,
-        // and moves on by less than its length.
+        // A path that comes within r of another axis begins there, ends there, or has passed the foot of the perpendicular from
+        // that axis; from the foot it moves on by less than its length.
         const F ex = end.x - from_axis.x, ey = across(display.lattice, end.y - from_axis.y),
                 r2 = F(misaligned.radius * misaligned.radius);
         astray = astray &&
@@ -222,7 +222,7 @@ LFDSIM_FN Mask<F> passes_hole(const TracedDisplay<Scalar<F>>& display, Cell<F> c
     return (t >= from) && (t <= end) && (x * x + y * y <= F(display.stop_radius2));
 }
 
-/// Does it pass the hole of any lens near the point at the path length `near`?
+/// Returns whether it passes the hole of any lens near the point at the path length `near`.
 template <class F>
 LFDSIM_RARE Mask<F> passes_any_hole(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Vec3<F> p, Vec3<F> d,
                                     F near, F from, F end, Mask<F> active) {
@@ -316,8 +316,8 @@ LFDSIM_FN Ray<F> in_array(const TracedDisplay<Scalar<F>>& display, const PanelBa
     return misaligned.wedged ? Ray<F>{wedged(misaligned, true, here.at), wedged(misaligned, true, here.to)} : here;
 }
 
-/// From where a ray leaves the lenses, in the array's frame, z from the vertex plane, to the panel. `glued`: it is in the top
-/// layer.
+/// Traces a ray that has left the lenses to the panel. `ray` is in the array's frame, z in mm from the vertex plane; `glued`: the
+/// lanes whose rays are already in the top layer.
 template <class F>
 LFDSIM_FN PanelPoint<F> out_of_array(const TracedDisplay<Scalar<F>>& display, const PanelBase<Scalar<F>>& base, Ray<F> ray,
                                      Mask<F> glued, F weight, Mask<F> alive) {
@@ -330,7 +330,8 @@ LFDSIM_FN PanelPoint<F> out_of_array(const TracedDisplay<Scalar<F>>& display, co
     return panel_point(display, display.lattice, base, Cell<F>{F(0), F(0)}, end.x, end.y, weight, alive);
 }
 
-/// From the plane z = entrance, in which passage.ray starts, to the panel.
+/// Traces rays through a misaligned array to the panel. passage.ray starts in the plane of the first vertices, or of the ideal
+/// lens, mm from the base lens's axis. Ends as in trace_opaque().
 template <Facts facts, class F>
 LFDSIM_FN PanelPoint<F> trace_misaligned(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                          const PanelBase<Scalar<F>>& base, Passage<F> passage) {

@@ -171,7 +171,8 @@ struct MovedCaps {
     LFDSIM_FN void end(Mask<F> ahead, Mask<F>& arrived) const { arrived = arrived && !ahead; }
 };
 
-/// From the plane z = entrance, in which passage.ray starts, to the panel.
+/// Traces rays through a moulded plate with misaligned lenses to the panel. passage.ray starts in the plane of the first
+/// vertices, mm from the base lens's axis.
 template <class F>
 LFDSIM_FN PanelPoint<F> trace_misaligned_plate(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                                const PanelBase<Scalar<F>>& base, const Passage<F>& passage) {

@@ -87,19 +87,20 @@ LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F>
     if (LaneTraits<F>::width == 1 && !lattice.staggered && none(out_x || out_y)) return out_x;  // most single rays end here
     const F reach2 = r * r + (ex * ex + ey * ey);
     if (lattice.staggered) {
-        // Of the neighbours in its row, in the next one and in the one after that; beyond them any may be near.
+        // The nearest of the neighbours in its row, in the next row and in the row after that decides; beyond those a ray may be
+        // near any lens.
         const F ax = ux - px, bx = ux - F(lattice.half_pitch[0]), by = uy - py, cy = by - py;
         F nearest = min(ax * ax + uy * uy, bx * bx + by * by);
         if (!lattice.hexagonal) nearest = min(nearest, ux * ux + cy * cy);  // low bricks
         return !in_cell(lattice, ux, uy) && ((nearest <= reach2) || (ux > px) || (uy > py));
     }
-    // Of the neighbour across the one border that it crosses; where it crosses more, any may be near.
+    // The neighbour across the one border that the ray crosses decides; where it crosses more than one, it may be near any lens.
     const F ax = min(ux, px - ux), ay = min(uy, py - uy);
     const Mask<F> near = (ax * ax + ay * ay <= reach2) || (out_x && out_y) || (ux > px) || (uy > py);
     return (out_x || out_y) && near;
 }
 
-/// Whether a path from one cell to the point (x, y) may pass cells with lenses.
+/// Returns whether a path from one cell to the point (x, y) may pass cells with lenses.
 template <class F>
 LFDSIM_FN Mask<F> may_enter(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Cell<F> from, F x, F y) {
     const Cell<F> to = cell_at(display.lattice, x, y);
@@ -174,8 +175,9 @@ struct InArray {
     LFDSIM_FN bool over(Mask<F>) const { return false; }
 };
 
-/// From the vertex plane of the first surfaces, in which passage.ray starts (from the base lens's axis), through one lens to the
-/// panel. The radiance is multiplied by cos^m of the ray's angle at the panel, m the emission exponent.
+/// Traces rays through one lens of an opaque array to the panel. passage.ray starts in the vertex plane of the first surface, mm
+/// from the base lens's axis. The radiance is multiplied by the transmittances of surfaces and layers and by cos^m of the angle
+/// at the panel, m the emission exponent; a ray that is absorbed has `alive` cleared.
 template <Facts facts, class F>
 LFDSIM_FN PanelPoint<F> trace_opaque(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                      const PanelBase<Scalar<F>>& base, Passage<F> passage) {

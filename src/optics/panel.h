@@ -33,8 +33,9 @@ struct PanelHit {
     Mask<F> lit;
 };
 
-/// The point (x, y), mm from the axis of the lens `cell` in the array's frame. Numbers stay small, so that the position is accurate
-/// to a few millionths of a pixel on any panel. `plain` promises that the array is not turned.
+/// Returns where a ray ends on the panel: the point (x, y), mm from the axis of the lens `cell` in the array's frame, in panel
+/// pixels. Numbers stay small, so that the position is accurate to a few millionths of a pixel on any panel. `plain` promises
+/// that the array is not rotated.
 template <bool plain = false, class F>
 LFDSIM_FN PanelPoint<F> panel_point(const TracedDisplay<Scalar<F>>& display, const Lattice<Scalar<F>>& lattice,
                                     const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y, F weight, Mask<F> alive) {

@@ -49,7 +49,7 @@ struct Sampler {
             sampling == Sampling::sobol ? key[d] ^ Uint<F>(point[d]) : mix(mix(key[d] + Uint<F>(sample * 0x9e3779b9u)) ^ key[d]);
         return from_int<F>(bits) * F(Scalar<F>(1.0 / 2147483648.0));
     }
-    /// On to the next sample: in Gray-code order one direction number changes.
+    /// Advances to the next sample; in Gray-code order one direction number changes (docs/model.md, "Sampling").
     LFDSIM_FN void next(const DirectionNumbers& directions) {
         ++sample;
         const int bit = trailing_zeros(sample);

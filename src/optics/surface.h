@@ -5,6 +5,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
+/// A vector with components along x, y and z.
 template <class F>
 struct Vec3 {
     F x, y, z;
@@ -32,8 +33,9 @@ struct Hit {
 
 // A surface is a SurfaceData, or one whose curvature differs from lane to lane (misaligned.h).
 
-/// Sag z and slope at s2 = x^2 + y^2 of the sheet that contains the vertex; `real`: it extends so far. d = 2 dz/d(s^2), so that
-/// the normal is along (-x d, -y d, 1).
+/// Computes the sag z, mm, and the slope at s2 = x^2 + y^2 of the sheet that contains the vertex: z = c s^2/(1 + sqrt(1 - (1 + k)
+/// c^2 s^2)) + a4 s^4 + a6 s^6 + ... (docs/model.md, "Lenses"). `real`: the sheet extends so far. d = 2 dz/d(s^2), so that the
+/// normal is along (-x d, -y d, 1).
 template <class F, class Surface>
 LFDSIM_FN void sag(const Surface& surface, F s2, F& z, F& d, Mask<F>& real) {
     const F c = surface.curvature, root2 = F(1) - c * c * (F(1) + F(surface.conic)) * s2;
@@ -50,7 +52,7 @@ LFDSIM_FN void sag(const Surface& surface, F s2, F& z, F& d, Mask<F>& real) {
     }
 }
 
-/// Where a ray that starts in the vertex plane (at.z = 0) and comes from the viewer's side meets a sphere. The distance t is
+/// Intersects rays that come from the viewer's side with a sphere. They start in its vertex plane (at.z = 0). The distance t is
 /// the root next to the vertex of c t^2/2 - (d_z - c b) t + c s^2/2 = 0, b = x d_x + y d_y, s^2 = x^2 + y^2, in a form without
 /// cancellation that also holds for c = 0 (Welford, Aberrations of Optical Systems, 1986, sec. 4.5); on a sphere the cosine of
 /// incidence is the square root of the discriminant.
@@ -69,8 +71,8 @@ LFDSIM_FN Hit<F> meet_sphere(const Surface& surface, Ray<F> ray) {
     return hit;
 }
 
-/// A ray meets a circular cylinder along y'. Seen along y' the ray meets a circle; length2 is the square of its direction's
-/// part in that plane, and the discriminant that of the ray in space.
+/// Intersects rays with a circular cylinder along y'. In projection along y' the ray meets a circle; length2 is the square of its
+/// direction's part in that plane, and the discriminant that of the ray in space.
 template <class F, class Surface>
 LFDSIM_FN Hit<F> meet_round_cylinder(const Surface& surface, Ray<F> ray, F length2) {
     const F c = surface.curvature;
@@ -86,8 +88,8 @@ LFDSIM_FN Hit<F> meet_round_cylinder(const Surface& surface, Ray<F> ray, F lengt
     return hit;
 }
 
-/// The ray meets a conic (closed form, then the normal) and even aspheres (Newton's method from the conic; each lane stops by
-/// itself, so that its bits do not depend on its neighbours).
+/// Intersects rays with a conic (closed form, then the normal) or an even asphere (Newton's method from the conic; the iteration
+/// stops lane by lane, so that its bits do not depend on neighbouring lanes).
 template <class F, class Surface>
 LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     const F c = surface.curvature, k1 = F(1) + F(surface.conic);
@@ -131,8 +133,8 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     return hit;
 }
 
-/// The transmitted share 1 - F. c1: cosine in the medium that the backward ray comes from (index n1); c2: in the other (n2);
-/// c_thin: the one of the two in the less dense medium.
+/// Returns the transmitted share 1 - F of a refraction (docs/model.md, "Refraction"). c1: cosine in the medium that the backward
+/// ray comes from (index n1); c2: in the other (n2); c_thin: the one of the two in the less dense medium. schlick_t0 = 1 - R0.
 template <class F>
 LFDSIM_FN F transmittance(Fresnel fresnel, F schlick_t0, F n1, F n2, F c1, F c2, F c_thin) {
     if (fresnel == Fresnel::schlick) {  // always the cosine in the less dense medium, whether the ray goes down or up

@@ -33,7 +33,7 @@ LFDSIM_FN void to_first_vertex(const TracedDisplay<Scalar<F>>& display, Passage<
     }
 }
 
-/// From the first plane, where the ray starts with its direction after the diffuser, to the panel.
+/// Traces a ray from the array's first plane, where it starts with its direction after the diffuser, to the panel.
 template <Facts facts, class F>
 LFDSIM_FN PanelPoint<F> trace_array(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {

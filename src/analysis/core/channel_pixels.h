@@ -1,5 +1,5 @@
-// One channel of a display: where on the panel it shines, for which points its content is made, by which path its light comes.
-// Floor 3.
+// One channel of a display: the rectangles of the panel that emit it, the points for which its content is made, and the path of
+// its light. Floor 3.
 #pragma once
 #include "display/colour.h"
 #include "display/display.h"

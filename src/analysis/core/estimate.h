@@ -33,7 +33,7 @@ inline constexpr int independent_sets = 8;
 /// them. It may be any smooth function of sums over the sets. Where it is not finite the error is NaN.
 Estimate jackknife(const std::function<double(int without)>& figure);
 
-/// One sum for each set.
+/// Sums of a quantity over each of the independent sets of lines of sight.
 using Sums = std::array<double, independent_sets>;
 /// Over all sets, or all but one.
 double total(const Sums&, int without = -1);

@@ -24,7 +24,7 @@ class ScreenParts {
     int count() const { return count_[0] * count_[1]; }
     /// Row 0 is at the top.
     LensBlock block(int part) const;
-    /// One as large in the middle of the array.
+    /// Returns a block of that size in the middle of the array.
     LensBlock middle() const;
     /// The line of sight of a choice among all lenses, among those of a block.
     Choice within(const LensBlock&, Choice) const;

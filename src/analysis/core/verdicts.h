@@ -8,8 +8,8 @@
 
 namespace lfdsim {
 
-/// One text for each, with figures, cause and remedy: views that do not separate, lenses that blur, colours that stay apart. Within
-/// milliseconds.
+/// Returns a text for each design flaw that a few rays reveal, with figures, cause and remedy: views that do not separate, lenses
+/// that blur, colours that stay apart. It takes milliseconds.
 std::vector<std::string> verdicts(const Display&, const Geometry&, const Theory&);
 
 }  // namespace lfdsim

@@ -37,7 +37,7 @@ inline FigureValue theory_figure(const Crosstalk& c) { return {c.percent.value, 
 /// Whether many lines of sight end where it is dark, or where a colour shines that is dim.
 inline bool structured(const Subject& s) { return !shines_all_over(s.display().panel); }
 
-/// One eye level with the screen's middle, at the viewing distance.
+/// An eye level with the screen's middle, at the viewing distance, and the light of each view that reaches it.
 class Eyes {
   public:
     Eyes(Subject& s, Job& job)

@@ -1,4 +1,4 @@
-// For which viewers the light of a white panel is meant, place by place. Floor 3.
+// Viewers for whom the light of a white panel is intended, point by point. Floor 3.
 #pragma once
 #include "analysis/core/channel_pixels.h"
 #include "content/pickup/pickup.h"

@@ -1,4 +1,4 @@
-// For which viewers the light is meant that an eye gathers, by theory: thin lenses without aberration. Floor 3.
+// Viewers for whom the light that an eye receives is intended, by theory: thin lenses without aberration. Floor 3.
 #pragma once
 #include "analysis/core/met_places.h"
 #include "analysis/core/subject.h"

@@ -18,7 +18,7 @@ double fades_over_deg(const Subject&, int axis);
 /// Returns fov_depth_mm(), or a lesser depth such that no eye on its way stands in the scene or nearer to it than it is deep.
 double fov_scene_depth_mm(const Subject&, const std::vector<double>& angles_deg);
 
-/// All views share the scene, its elemental images, the white field.
+/// The scene, its elemental images and the white field, which all views share.
 struct ShownEdge {
     ContentScene scene;
     const SummedPanel& panel;

@@ -1,6 +1,6 @@
-// From a curve of SSIM to an interval: the published rules, and the edge of the field of view. Floor 3.
+// Intervals from a curve of SSIM: the published criteria, and the edge of the field of view. Floor 3.
 //
-// Curves are given at rising places, and read as straight lines between them. An interval is the connected one about a centre.
+// Curves are given at rising positions, and read as straight lines between them. An interval is the connected one about a centre.
 #pragma once
 #include "analysis/core/result.h"
 
@@ -16,7 +16,7 @@ struct Limit {
     double at = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();  // from the curve's noise and half the step between its places
     std::string missing = {};
-    // Of one that was not found: as far as the rule is known to hold, the end of the search or an end that is too uncertain.
+    // If no limit was found: how far the criterion is known to be met, the end of the search or an end that is too uncertain.
     double holds_to = std::numeric_limits<double>::quiet_NaN();
     bool searched_out = false;  // the rule holds as far as was searched
 
@@ -52,11 +52,12 @@ struct Falls {
     double low, high, reach;
 };
 
-/// On each side the one sustained fall that contains the expected place: the curve crosses the middle between its medians inside
-/// and outside of the fall once, and stays on either side of it. The medians are of the places between one and three reaches (of
-/// two steps at least) from the expected one. None where the medians differ by less than 0.02 or five standard deviations, where
-/// the curve crosses more than once, or where it ends before. The error contains the noise, half a step, the limit's distance from
-/// the expected place, which depends on no content, and half of the amount by which both limits lie to one side of those.
+/// Returns the middle, on each side, of the one sustained fall that contains the expected position: the curve crosses the middle
+/// between its medians inside and outside of the fall once, and stays on either side of it. The medians are those of the
+/// positions between one and three reaches (at least two steps) from the expected one. No limit is found where the medians differ
+/// by less than 0.02 or five standard deviations, where the curve crosses more than once, or where it ends before. The error
+/// contains the noise, half a step, the limit's distance from the expected position, which depends on no content, and half of the
+/// amount by which both limits lie to one side of those.
 Interval where_it_falls(const Curve&, const Falls&);
 
 /// The part of an interval above 0, or below it: its other end is 0 where it reaches across. Empty, with that reason, where it does

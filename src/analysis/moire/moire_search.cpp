@@ -139,7 +139,7 @@ MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, 
     for (const Candidate& c : strongest_waves(lines, mm_per_degree)) measure(c.frequency, c.contrast);
     // It may be too weak to stand out of the noise of all other waves.
     if (theory && is_measurable(theory->frequency, lines.window())) measure(theory->frequency, theory->contrast);
-    // Of waves of the same period that may be equally strong, as symmetry makes them, that of the least direction
+    // Symmetry makes waves of the same period that may be equally strong: the one of the least direction is taken.
     if (all.empty()) return search;
     const auto strongest = std::ranges::max_element(all, {}, [](const MeasuredBeat& m) { return m.seen.value; });
     for (const MeasuredBeat& m : all) {

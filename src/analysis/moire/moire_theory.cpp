@@ -116,8 +116,8 @@ std::optional<Beat> MoireTheory::strongest(const EyeFilter& eye) const {
     std::ranges::stable_sort(harmonics, std::greater(), &PanelHarmonic::most);
     std::vector<Beat> strong;  // within `tied` of the strongest so far
     double greatest = least_seen;
-    // Of lens harmonics, before near eyes a million for each of the panel's, most are known to be weak by bounds alone: those near
-    // the greatest mean over the aperture come first.
+    // Most harmonics of the lens lattice, for near eyes a million for each of the panel's, are known to be weak by bounds alone:
+    // those near the greatest mean over the aperture come first.
     for (const double nearest : {2., infinity})
         for (const auto& [k, l, most] : harmonics) {
             if (most < tied * greatest) break;

@@ -23,8 +23,8 @@ Image picture(const Display& d, const SummedPanel& panel, RenderOptions how, std
     return std::move(r.image);
 }
 
-/// The same without lenses: one cell as large as the panel whose lens has hardly any power (its focal length is a kilometre), where
-/// the vertex plane was.
+/// Returns the display without its lenses: one cell as large as the panel whose lens has hardly any power (its focal length is a
+/// kilometre), in the vertex plane.
 Display diffuser_alone(const Display& d, const Geometry& g) {
     Display bare = d;
     bare.lens = Lens{IdealLens{{}, longest_mm}, {}};

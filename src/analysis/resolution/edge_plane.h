@@ -1,4 +1,4 @@
-// One plane of slanted edges that a display shows, seen from several angles. Floor 3.
+// A plane of slanted edges that a display shows, seen from several angles. Floor 3.
 #pragma once
 #include "analysis/core/elemental_panel.h"
 #include "analysis/core/subject.h"

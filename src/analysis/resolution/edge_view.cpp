@@ -69,8 +69,8 @@ Bars bars_across(const Direction& direction, double z_mm) {
     const bool upright = std::abs(direction.x) >= std::abs(direction.y);
     // Edges that stand straight across the direction lean by this, within 45 degrees.
     const double straight = (upright ? std::atan(-direction.y / direction.x) : std::atan(-direction.x / direction.y)) / degree;
-    // Not straight along the panel's rows or columns, where all parts of an edge would meet the pixels alike; not far from them
-    // either, since long edges then fit on the screen.
+    // The edge is not along the panel's rows or columns, where all of its parts would meet the pixels alike, but not far from
+    // them either, since long edges then fit on the screen.
     const double sign = straight < 0 ? -1 : 1,
                  lean = std::abs(straight) <= 20 ? straight + sign * slant_deg : straight - sign * slant_deg;
     return {upright, lean, z_mm, 1, 1, 0};

@@ -100,7 +100,7 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
     else if (spread.width_mm(1 - most_lost) > 2 * seen_half_mm(s.display(), s.geometry(), plane, eye)[0])
         m.missing = "the light is spread over more of that plane than the screen shows";
 
-    // To the first zero of a pixel's image or, where the blur is far wider, to where next to nothing is left
+    // Frequencies reach to the first zero of a pixel's image or, where the blur is far wider, to where the MTF is negligible.
     const Blur by_theory = blur(s.display(), s.geometry(), s.theory(), plane.z_mm, angle_deg);
     const double width = m.spread_mm > 0 ? m.spread_mm : by_theory.width_mm(direction);
     std::vector<ChannelBlur> blurs;

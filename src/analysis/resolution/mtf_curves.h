@@ -64,7 +64,8 @@ struct SeenInColours {
 };
 SeenInColours seen_in_colours(const Subject&, const Vec3d& eye_mm);
 
-/// All but the edges, for a plane at a depth in front of the vertex plane and an eye at an angle.
+/// Returns all curves except those of edges, for a plane at a depth, mm in front of the vertex plane, and an eye at an angle,
+/// degrees.
 MtfCurves mtf_curves(const Subject&, const SeenInColours&, double depth_mm, double angle_deg, const Direction&);
 
 }  // namespace lfdsim

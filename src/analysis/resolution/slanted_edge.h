@@ -18,7 +18,7 @@ namespace lfdsim {
 
 /// Parallel edges, nearly upright, that cross a picture from its first row to its last. In pixels from its upper left corner.
 struct Edges {
-    /// One edge of a picture.
+    /// An edge of a picture: a straight line between black and white.
     struct EdgeLine {
         double at;    // where it meets row 0
         bool rising;  // bright on its right

@@ -88,7 +88,8 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
         if (!optics::in_cell(lattice, panel[0], panel[1], 1e-9 * lattice.pitch[0])) return nan;
         const Bundle light = bundle(lens, panel, pixel_rays);
         if (light.rays.empty()) return nan;
-        // Both lines as slopes from the axis's point at H', so that L may be infinite: at L a pixel's image is a |L| / g wide.
+        // Both lines are stated as slopes from the axis's point at H', so that L may be infinite: at L a pixel's image is a |L| /
+        // g wide.
         double x = 0, y = 0;
         for (const LensRay& r : light.rays) {
             x += r.mx + r.x / L;

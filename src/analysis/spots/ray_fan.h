@@ -8,8 +8,9 @@
 
 namespace lfdsim {
 
-/// All the light of a panel point that gets through, as rays of equal light of a Lambertian panel; of strips, those of the plane
-/// across them: light that goes steeply along strips, which no eye sees, meets them as if they were stronger.
+/// Rays of all the light of a panel point that is transmitted by the lens, each with equal light of a Lambertian panel; for
+/// strips only those of the plane across them: light that runs steeply along strips, which no eye sees, meets them as if they
+/// were stronger.
 struct Bundle {
     std::vector<LensRay> rays;
     double light = 0;  // area of their direction cosines

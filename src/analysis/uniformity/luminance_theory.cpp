@@ -35,8 +35,8 @@ double beside(const Display& d, const Geometry& g) {
     return d.array.surround == Surround::plate ? transmission(d, g) : 1;
 }
 
-/// One glass lens as it is: lines bend at its own surfaces by Snell's law, and Fresnel's equations take their share. What other
-/// lenses hide of it, and light that goes on through walls, is left out.
+/// An isolated glass lens: lines are refracted at its surfaces by Snell's law, with Fresnel's transmittances. Occlusion by other
+/// lenses, and light that continues through walls, are left out.
 class RealLens {
   public:
     RealLens(const Display& d, const Geometry& g)

@@ -99,7 +99,7 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Geom
     constexpr int side = PitchLuminance::side;
     const Lattice<double>& lattice = rays.lattice();
     const int rays_each = rays_a_part * rays.more_for(eye);
-    // One of the columns or rows of the array's middle half
+    // Returns one of the columns or rows of the array's middle half.
     const auto in_middle = [&](std::size_t k, double choice) {
         const auto all = std::int64_t(lattice.count[k]), first = all / 4, count = all - 2 * first;
         return double(first + std::min(std::int64_t((0.5 + 0.5 * choice) * double(count)), count - 1));

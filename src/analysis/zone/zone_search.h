@@ -1,4 +1,5 @@
-// From where all of the screen shows its own elemental images, by lines of sight from viewers about the zone. Floor 3.
+// Search for the viewing zone, in which the whole screen shows its own elemental images, by lines of sight from viewers about the
+// zone. Floor 3.
 #pragma once
 #include "analysis/core/estimate.h"
 #include "analysis/core/eye_rays.h"

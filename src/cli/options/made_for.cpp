@@ -40,7 +40,8 @@ std::optional<IntendedDisplay> made_for(const Metadata& about) {
     }
 }
 
-// All that elemental images depend on but the model, from which lengths on the lens's axis come out however it is described.
+// Returns all that elemental images depend on except the model; lengths on the lens's axis are compared as numbers, however the
+// lens is described.
 std::vector<Said> pickup_of(const IntendedDisplay& made) {
     const auto& [d, g] = made;
     return {{"panel.pixel_pitch_mm", {d.panel.pixel_pitch_mm}},

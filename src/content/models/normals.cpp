@@ -32,7 +32,7 @@ double angle_at(const Corners& p, std::size_t k) {
     return std::acos(std::clamp(dot(a, b), -1., 1.));
 }
 
-// One entry for each corner in place of one for each vertex.
+// Expands a list with an entry for each vertex to one with an entry for each corner of the triangles.
 void spread(std::vector<float>& of_vertices, const std::vector<std::uint32_t>& indices, std::size_t size) {
     std::vector<float> of_corners;
     of_corners.reserve(indices.size() * size);
@@ -41,7 +41,7 @@ void spread(std::vector<float>& of_vertices, const std::vector<std::uint32_t>& i
     of_vertices = std::move(of_corners);
 }
 
-// For each vertex the first one at the same place.
+// Returns for each vertex the first one at the same position.
 std::vector<std::uint32_t> first_at_place(const Model& m) {
     std::vector<std::uint32_t> order(m.vertices()), first(m.vertices());
     std::iota(order.begin(), order.end(), 0u);

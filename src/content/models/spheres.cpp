@@ -15,7 +15,7 @@ struct Sphere {
     float radius;
     std::array<std::uint8_t, 3> light, dark;  // sRGB codes of its squares
 };
-// As high as wide and as deep: the box reaches from -1 to 1 along every axis.
+// The spheres fill a cube: the box reaches from -1 to 1 along every axis.
 constexpr Sphere spheres[] = {
     {{0, 0, 0}, 0.42f, {235, 235, 235}, {40, 40, 40}},
     {{-0.62f, 0.62f, -0.62f}, 0.38f, {230, 90, 60}, {60, 20, 10}},

@@ -35,7 +35,7 @@ class PickupRays {
             for (int ray = 0; ray < rays_; ++ray) sets_.push_back(set_of(display, mappings, channel, ray));
     }
 
-    /// For each pixel, or for each channel of it.
+    /// Returns the number of rays for each pixel, or for each channel of it.
     static int rays_of(const Display& d) { return d.content.pickup == PickupKind::integrated ? int(d.content.pickup_rays) : 1; }
 
     Beam beam() const { return {width_per_t_, float(rise_)}; }

@@ -1,4 +1,4 @@
-// For which points of a panel's pixels their colours are made. Floor 2.
+// Points of a panel's pixels for which their colours are made. Floor 2.
 #pragma once
 #include "geometry/subpixels.h"
 
@@ -14,14 +14,14 @@ inline bool made_by_channel(const Display& d) {
     return d.panel.subpixels != SubpixelLayout::none && d.content.sampling == ContentSampling::subpixel;
 }
 
-/// For which point of a pixel a channel of it is made: pixels from its centre to the right and down, for each pixel of a cell.
-/// Nothing where the channel does not shine.
+/// The point of a pixel for which a channel of it is made, from the pixel's centre, in pixels to the right and down, for each
+/// pixel of a cell; nothing where the channel is not emitted.
 class ShownPoints {
   public:
     using Point = std::array<double, 2>;
 
-    /// For the middle of the pixel, or of the channel's light. Where a place is given: for the point at that share of the
-    /// light's width (0) and height (1), taken of its rectangles one after the other.
+    /// Takes the middle of the pixel, or of the channel's light. If `place` is given: the point at that share of the light's
+    /// width (0) and height (1), counted over its rectangles one after the other.
     ShownPoints(const Panel& panel, bool by_channel, int channel, const std::optional<Point>& place = {}) {
         if (by_channel) cell_ = subpixel_cell(panel).size;
         for (std::int64_t row = 0; row < cell_[1]; ++row)

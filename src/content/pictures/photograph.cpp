@@ -6,7 +6,7 @@
 namespace lfdsim {
 namespace {
 
-// As normalised(), but with other rounding, on which the bits of photographs depend.
+// Returns the unit vector like normalised(), but with a different rounding, on which the bits of photographs depend.
 Vec3d unit(const Vec3d& a) { return times(1 / std::sqrt(dot(a, a)), a); }
 
 /// The camera's frame: rays are axis + slopes, so that their t is the depth along the axis.

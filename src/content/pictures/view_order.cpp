@@ -17,7 +17,7 @@ struct Grey {
     float at(int x, int y) const { return light[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
 };
 
-/// As bright as the eye finds it, about: the square root of the mean of the channels.
+/// Returns the approximate perceived brightness: the square root of the mean of the channels.
 Grey grey(const Image& picture) {
     const Image small = reduced(picture, most_columns);
     Grey grey{small.width, small.height, {}};

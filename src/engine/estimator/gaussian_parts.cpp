@@ -27,7 +27,7 @@ std::vector<EvenPart> even_parts(const Display& display) {
         part.diffuser->profile = Profile::box;
         part.diffuser->angle_deg = box.angle_deg;
         part.render.samples = each * each;
-        // Their noise is to be independent. The golden ratio takes seeds far from those that users count up.
+        // The noise of the parts must be independent. The golden ratio makes seeds far from those that users count up.
         part.render.seed = decltype(part.render.seed)(std::uint64_t(display.render.seed) + number * 0x9e3779b97f4a7c15);
     }
     return parts;

@@ -17,7 +17,7 @@ struct FilteredLimits {
     // How wide a block of 16 x 16 pixels may be, as a share of the lens pitch or of what a diffused ray spans, whichever is less.
     // In this order: for a fine picture; for many strata; for a rough picture; otherwise.
     static constexpr double block_finest = 0.05, block_fine = 0.2, block_rough = 0.95, block_usual = 0.7;
-    // The same for blocks of 8 x 8 pixels, twice the above at most.
+    // Those limits for blocks of 8 x 8 pixels, at most twice the ones for 16 x 16.
     static constexpr double half_block_rough = 0.8, half_block_usual = 0.4;
 
     // A block (engine/estimator/shared_footprint.h). Lens pitches: how far the fourth ray of a block may be from where the other

@@ -81,7 +81,7 @@ LFDSIM_FN F hole_coverage(const Span<F>& a, const Span<F>& b) {
         const F x = F(S(0.5)) * (a.to + a.from), y = F(S(0.5)) * (b.to + b.from), rho = max(sqrt(x * x + y * y), F(S(1e-6)));
         const F reach = max(abs(x) * width + abs(y) * height, F(S(1e-12)));  // rho times the rectangle's extent across the edge
         cover = select(small, F(S(0.5)) + (F(1) - rho) * rho / reach, cover);
-        // For a long, thin rectangle: the part within the chord along it.
+        // Returns, for a long, thin rectangle, the part within the chord along it.
         auto chord = [](F along_from, F along_to, F across) {
             const F c = sqrt(max(F(1) - across * across, F(0)));
             return max(min(along_to, c) - max(along_from, -c), F(0)) / max(along_to - along_from, F(S(1e-6)));

@@ -39,8 +39,8 @@ struct Stratum {
     bool at_edge;  // an end of the domain, whose position moves from pixel to pixel, lies in it for some pixels
 };
 
-/// One axis of the sample domain as a block cuts it. Inner cuts have fixed positions on the lenses, so their u changes from pixel
-/// to pixel; the ends have the fixed u = -1 and 1, and their positions move.
+/// An axis of the sample domain as a block cuts it into strata. Inner cuts have fixed positions on the lenses, so their u changes
+/// from pixel to pixel; the ends have the fixed u = -1 and 1, and their positions move.
 struct Axis {
     int strata;
     Gradient first, last;  // the positions of the ends

@@ -116,7 +116,7 @@ void add_holes(optics::TracedDisplay<S>& scene, const Display& display, const Ge
     std::array<double, 2> z{};
     double radius = display.array.aperture == Aperture::circle ? first.semi_aperture_mm : 0;
     std::array<double, 2> edge{geometry.lattice.half_pitch[0], geometry.lattice.half_pitch[1]};
-    // As far from the axis as the root mean square of a hexagon's border is; strips end at their sides alone.
+    // The border is taken at the root mean square distance of a hexagon's border from its axis; strips end at their sides only.
     if (geometry.lattice.hexagonal) edge.fill(edge[0] * std::sqrt(10.0) / 3);
     if (geometry.lattice.strips) edge[1] = edge[0];
     for (std::size_t k = 0; k < 2; ++k)

@@ -1,4 +1,4 @@
-// From a display description to the tracer's plain numbers. Floor 2.
+// Conversion of a display description to the tracer's plain numbers. Floor 2.
 #pragma once
 #include "display/display.h"
 #include "engine/devices/kernel.h"

@@ -13,7 +13,7 @@ struct RowAndColumn {
         : row(std::int32_t(std::uint32_t(i) / std::uint32_t(f.width))), column(std::int32_t(i) - row * f.width) {}
 };
 
-/// Of moment_rows pixels below each other, whose windows' columns have most of their pixels in common.
+/// Computes the moments of moment_rows pixels below each other, whose windows have most of their columns' pixels in common.
 LFDSIM_FN void moment_item(const LikenessFrame& f, std::int64_t i) {
     const RowAndColumn at(f, i);
     constexpr int span = ssim_window + moment_rows - 1;

@@ -67,7 +67,7 @@ struct CalibrationValues {
     }
 };
 
-/// All calibrations within: in objects, lists, and texts that are JSON themselves.
+/// Finds all calibrations within a value: in objects, lists, and texts that are JSON themselves.
 void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& json, const std::string& place, int depth,
                  std::vector<CalibrationValues>& found) {
     if (depth > deepest_nesting || found.size() >= most_found) return;

@@ -19,7 +19,7 @@ constexpr double inch_mm = 25.4, panel_height_deg = 14;
 constexpr double least_share = 0.01;        // of a pixel's width or height that a subpixel can be
 constexpr double fewest_pixels_behind = 1;  // a lens; less can show no views
 
-/// Of all subpixels the same rectangle, as large as can be without two of them overlapping: width and height in pixels.
+/// Returns the width and height, in pixels, of the largest rectangle that all subpixels can have without two of them overlapping.
 std::array<double, 2> largest_rect(const Calibration& c) {
     const CellPattern& pattern = cell_patterns[c.cell_pattern];
     std::vector<std::array<double, 2>> apart;  // neighbours, by their distance along x and y
@@ -119,7 +119,7 @@ class CalibrationImport {
             c.cell_pattern, width, height);
         if (c.flip_subpixels) note("flipSubp is not read: subpixelCells give the position of each colour.");
     }
-    /// Of a row of the cell that is at the panel's top.
+    /// Returns the number, from the bottom, of a row of the cell that is at the panel's top.
     std::int64_t row_from_bottom(int row, const CellPattern& pattern) const {
         return c.pixels[1] - 1 - row + pattern.rows;  // one cell further up: not negative, on a panel of fewer rows than the cell
     }

@@ -17,7 +17,7 @@ void append(std::string& text, std::uint32_t c) {
     }
 }
 
-/// Of a sequence that begins with this byte; 0: none does.
+/// Returns the length of a UTF-8 sequence that begins with this byte; 0: none does.
 std::size_t utf8_length(unsigned char first) {
     if (first < 0x80) return 1;
     if (first >= 0xc2 && first < 0xe0) return 2;

@@ -5,8 +5,8 @@
 
 namespace lfdsim {
 
-/// From UTF-16 where the bytes begin with its mark; else they are UTF-8 (its mark is cut off), or, where they cannot be, Latin-1.
-/// Halves of surrogate pairs that stand alone become U+FFFD.
+/// Converts text to UTF-8: from UTF-16 if the bytes begin with its byte order mark; otherwise they are UTF-8 (a mark is removed)
+/// or, if invalid as such, Latin-1. Unpaired halves of surrogate pairs become U+FFFD.
 std::string to_utf8(std::string_view bytes);
 
 }  // namespace lfdsim

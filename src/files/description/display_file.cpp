@@ -24,7 +24,7 @@ constexpr std::int64_t known_schema = 1;
 // More than a person fixes at once: a file of another kind in TOML can hold a hundred thousand unknown keys.
 constexpr std::size_t most_problems_told = 50;
 
-// Of any list of tables.
+// The most elements of any list of tables.
 constexpr std::size_t most_elements = std::max({max_surfaces, max_layers, std::size_t(max_subpixels), max_objects});
 
 // Fills a display from a parsed description, by the tables of keys. It continues after a fault: a value that cannot be read keeps

@@ -17,8 +17,8 @@ namespace lfdsim {
 /// in the description as written, unless they set content.depth_mm.
 Display read_display(const std::filesystem::path&, const std::vector<std::string>& overrides = {});
 
-/// The same from text; `name` stands for the file in messages, and files that the text names are relative to `folder`. Limits:
-/// 1 MiB of text, 16 levels.
+/// Reads a description from text; `name` is the file's name in messages, and files that the text names are relative to `folder`.
+/// Limits: 1 MiB of text, 16 levels.
 Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {},
                       const std::filesystem::path& folder = {});
 

@@ -1,4 +1,4 @@
-// For a word that is wrong, the known one that was most likely meant. Floor 2.
+// Search for the known word that was most likely meant by a wrong one. Floor 2.
 #pragma once
 #include <span>
 #include <string>

@@ -5,8 +5,8 @@
 
 namespace lfdsim {
 
-/// For a value that the parser refused, of the key at a dotted path ("lens.index", ".6"): what is wrong and what to write; empty
-/// if nothing is better than the parser's message.
+/// Explains a value that the parser refused, of the key at a dotted path ("lens.index", ".6"): what is wrong and what to write;
+/// empty if nothing is better than the parser's message.
 std::string override_hint(std::string_view path, std::string_view value);
 
 }  // namespace lfdsim

@@ -36,7 +36,7 @@ inline constexpr std::int64_t most_path_frames = 100'000;
 /// ("poses[3].time_s"). Whether a display's camera can stand there is not checked.
 CameraPath read_path(const std::filesystem::path&);
 
-/// The same from text; `name` stands for the file in messages.
+/// Reads a camera path from text; `name` is the file's name in messages.
 CameraPath parse_path(std::string_view text, std::string_view name);
 
 }  // namespace lfdsim

@@ -29,7 +29,7 @@ inline std::string shell_word(std::string_view word) {
     return quoted + "'";
 }
 
-/// The same for a file, which must not be taken for an option.
+/// Returns shell_word() of a file's name, which must not be taken for an option.
 inline std::string shell_file(const std::string& name) { return shell_word(name.starts_with('-') ? "./" + name : name); }
 
 }  // namespace lfdsim

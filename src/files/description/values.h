@@ -1,4 +1,4 @@
-// One TOML value into one field of a display, and back. Floor 2.
+// Conversion of a TOML value to a field of a display, and back. Floor 2.
 #pragma once
 #include "base/counted.h"
 #include "display/keys.h"

@@ -115,7 +115,7 @@ class AgfReader {
     void add_problem(std::string_view key, const std::string& what) {
         problems_.push_back(key.empty() ? Problem{read_.file, what} : Problem{place(line_), fmt::format("{}: {}", key, what)});
     }
-    /// Of the glass whose lines have ended.
+    /// Adds a doubt about the glass whose lines have ended.
     void doubt(const std::string& glass, const std::string& what) {
         read_.doubts.push_back({glass, {place(entry_.line), fmt::format("{}{}", shortened(glass), what)}});
     }
@@ -130,7 +130,7 @@ class AgfReader {
         }
     }
 
-    /// All but the first word.
+    /// Returns all words but the first as numbers.
     std::vector<double> numbers(const std::vector<std::string_view>& words) {
         std::vector<double> all;
         for (std::size_t k = 1; k < words.size(); ++k) {

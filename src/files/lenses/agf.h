@@ -10,7 +10,7 @@
 
 namespace lfdsim {
 
-/// Of a glass that was left out, or whose stated n_d is not that of its coefficients.
+/// A doubt about a glass that was left out, or whose stated n_d is not that of its coefficients.
 struct GlassDoubt {
     std::string glass;
     Problem problem;  // where: "file:line"
@@ -28,7 +28,7 @@ inline constexpr std::size_t largest_agf_bytes = std::size_t(8) << 20, most_glas
 /// temperature. Throws InputError with "name:line" where a number cannot be read, or where there is no glass at all.
 GlassCatalogue parse_agf(std::string_view bytes, std::string_view name);
 
-/// The same of a file of at most 8 MiB.
+/// Reads the catalogue of a file of at most 8 MiB.
 GlassCatalogue read_agf(const std::filesystem::path&);
 
 }  // namespace lfdsim

@@ -52,7 +52,7 @@ DrawnLens parse_zmx(std::string_view bytes, std::string_view name);
 DrawnLens parse_optiland(std::string_view text, std::string_view name);
 DrawnLens parse_rayoptics(std::string_view text, std::string_view name);
 
-/// All lengths of the lens times a factor.
+/// Multiplies all lengths of the lens by a factor.
 void scale(DrawnLens&, double factor);
 
 /// A surface with a term in r^2 beside its conic, as both formats may have it, a2 in 1/mm. Whether it could be written without the

@@ -32,7 +32,7 @@ struct LensMedium {
 /// Further away than this, mm, an object is as good as at infinity; programs write such numbers for it.
 constexpr double infinite_mm = 1e9;
 
-/// Without the noise of the last digits that scaling leaves.
+/// Returns a number without the noise of the last digits that scaling leaves.
 double tidy(double x) {
     const std::string text = fmt::format("{:.14g}", x);
     std::from_chars(text.data(), text.data() + text.size(), x);
@@ -236,7 +236,7 @@ class LensImport {
             "the eye.");
     }
 
-    // From the panel to the lens's principal plane, in the green light that decides lengths here.
+    // Returns the gap from the panel to the lens's principal plane, mm, in the green light that determines lengths here.
     double gap(const Display& d) {
         const Cardinal c = cardinal_points(prescription(d.lens, d.array, d.panel.wavelengths_nm[green_channel]));
         const bool diverges = c.focal_length_mm < 0;

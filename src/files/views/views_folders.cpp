@@ -119,7 +119,7 @@ using ByNumbers = std::map<std::pair<int, int>, fs::path>;
 struct GridOfNames {
     int first[2], count[2];
 };
-/// From the least to the greatest of both numbers, with none missing. Throws InputError.
+/// Returns the grid from the least to the greatest of both numbers, with none missing. Throws InputError.
 GridOfNames whole_grid(const fs::path& folder, const ByNumbers& files, std::array<const char*, 2> words) {
     GridOfNames grid{{files.begin()->first.first, files.begin()->first.second}, {1, 1}};
     int last[2] = {0, 0};

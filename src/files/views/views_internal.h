@@ -12,8 +12,8 @@ namespace lfdsim::detail {
 /// files of the same number.
 std::map<std::int64_t, std::filesystem::path> numbered_files(const std::filesystem::path& folder, const std::string& pattern);
 
-/// The same, which must be `count` files without a gap, from number 0 or 1 or any other on. Throws InputError that names the first
-/// that is missing, or that is too many.
+/// Returns the numbered files of a row, which must be `count` files without a gap, from any first number on. Throws InputError
+/// that names the first file that is missing, or that is too many.
 std::vector<std::filesystem::path> numbered_row(const std::filesystem::path& folder, const std::string& pattern, std::size_t count,
                                                 const std::string& counted_in);
 

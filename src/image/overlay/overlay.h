@@ -81,8 +81,8 @@ struct Overlay {
 /// Memory that lay_over() takes for a view of this size, besides that of the pictures.
 constexpr double overlay_bytes(double view_width, double view_height) { return 160 * view_width * view_height; }
 
-/// All of the steps above. Both corners must pass check_corners(). Throws InputError as the steps do, and at `--fit-corners` for
-/// fitted corners that do not pass. Where the job is cancelled it ends soon, and what it returns means nothing.
+/// Runs all of the steps above. Both corners must pass check_corners(). Throws InputError as the steps do, and at `--fit-corners`
+/// for fitted corners that do not pass. If the job is cancelled it ends soon, and what it returns means nothing.
 Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto, const OverlayOptions&, const Job& = Job());
 
 }  // namespace lfdsim

@@ -15,7 +15,7 @@ constexpr int unknowns = 8;
 using Vector = std::array<double, unknowns>;
 using NormalMatrix = std::array<Vector, unknowns>;
 
-/// By Cholesky's factors; `a` is symmetric and positive definite.
+/// Solves a x = b by Cholesky's factors; `a` is symmetric and positive definite.
 Vector solve(NormalMatrix a, Vector b) {
     for (std::size_t j = 0; j < unknowns; ++j)
         for (std::size_t i = j; i < unknowns; ++i) {
@@ -44,7 +44,7 @@ Corners moved(Corners corners, const Vector& by) {
     return corners;
 }
 
-/// One level of blur: the mean of the channels of both pictures.
+/// A level of blur: the mean of the channels of both pictures, blurred alike.
 class BlurLevel {
   public:
     BlurLevel(std::vector<float> photograph, std::vector<float> view, const Aligned& aligned, const Corners& corners, double sigma)

@@ -1,4 +1,4 @@
-// One lens of the array as triangles, whose vertices lie on its surfaces. Floor 2.
+// A lens of the array as triangles, whose vertices lie on its surfaces. Floor 2.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"

@@ -53,7 +53,7 @@ struct MeshedScene : optics::TracedDisplay<float> {
 };
 
 namespace optics {
-/// For trace_opaque<Specialisations::meshed>; the scene must be a MeshedScene.
+/// Intersects a ray with the lens's triangles, for trace_opaque<Specialisations::meshed>; the scene must be a MeshedScene.
 inline Hit<float> meet_mesh(const TracedDisplay<float>& scene, int k, const Ray<float>& ray) {
     return static_cast<const MeshedScene&>(scene).surfaces->meet(k, ray);
 }

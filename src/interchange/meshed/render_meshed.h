@@ -25,8 +25,9 @@ class MeshedLens {
     std::shared_ptr<const MeshSurfaces> surfaces_;
 };
 
-/// As render() with the estimator "point", sample by sample: the same rays and rules, but with triangles in place of the surfaces.
-/// The lens is that of the display. The same bits with any number of threads and any crop; the choice of kernel has no effect.
+/// Renders like render() with the estimator "point", sample by sample: the same rays and rules, but with triangles in place of
+/// the surfaces. The lens is that of the display. The bits are the same with any number of threads and any crop; the choice of
+/// kernel has no effect.
 Rendering render_meshed(const Display&, const Geometry&, const Texels& panel, const MeshedLens&, const RenderOptions&, Job&);
 
 }  // namespace lfdsim

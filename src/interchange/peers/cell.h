@@ -38,7 +38,7 @@ MeshedArray mesh_array(const Display&, const Geometry&, std::int64_t triangles);
 struct Ring {
     double z_mm, radius_mm;
 };
-/// Those of the black part between lenses, highest first, none unless the surround is opaque; and the one of the stop.
+/// Returns the rings of the black part between lenses, highest first, none unless the surround is opaque; and that of the stop.
 std::vector<Ring> black_rings(const Display&, const Geometry&);
 std::vector<Ring> stop_rings(const Display&, const Geometry&);
 

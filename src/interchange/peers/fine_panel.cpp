@@ -29,9 +29,9 @@ struct FinePart {
         const double at = (double(place % cell(axis)) + 0.5) / double(times);
         return at >= part.from[axis] && at < part.to[axis];
     }
-    /// Of the cell, in fine pixels.
+    /// Returns the size of the cell along an axis, in fine pixels.
     std::int64_t cell(std::size_t axis) const { return part.plane.cell[axis] * times; }
-    /// So that white is white in the mean, whatever rounding does to the part.
+    /// Returns the factor that makes white white in the mean, whatever rounding does to the part.
     double brightness() const {
         double area = 1;
         for (const std::size_t axis : {0u, 1u}) {

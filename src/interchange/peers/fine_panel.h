@@ -17,8 +17,8 @@ struct FinePanel {
     std::vector<std::string> deviations;  // in words
 };
 
-/// As many pixels as show all borders of subpixels, up to 12 along each axis; then borders are rounded. Throws InputError for a
-/// panel that would have too many.
+/// Returns a panel with enough pixels to show all borders of subpixels, up to 12 along each axis; beyond that borders are
+/// rounded. Throws InputError for a panel that would have too many.
 FinePanel fine_panel(const Display&);
 
 /// The fine panel's image of a panel image. Throws std::bad_alloc.

@@ -24,7 +24,7 @@ struct PeerOptions {
     std::optional<int> channel;  // 0, 1, 2: a scene of that channel's light alone; absent: of all three
 };
 
-/// As many as the lens of the 2019 paper has.
+/// The number of triangles of a lens in the 2019 paper.
 inline constexpr std::int64_t default_triangles = 3386;
 /// A scene of POV-Ray holds its triangles as text.
 inline constexpr std::int64_t most_pov_triangles = 1'000'000;

@@ -16,7 +16,7 @@
 
 namespace lfdsim::peers {
 
-/// So many lenses that differ from each other a scene may have: each has shapes of its own.
+/// The most lenses that may differ from each other in a scene, since each has separate shapes.
 inline constexpr double most_pov_lenses = 20'000;
 
 class PovStands {
@@ -31,13 +31,13 @@ class PovStands {
     const LensError& error(std::size_t k) const { return stands_[k].error; }  // with the bow in its height
     double raised(std::size_t k) const { return stands_[k].raised; }          // by the bow
 
-    /// Its surfaces in its own frame, with its own curvature.
+    /// Returns the surfaces of lens k in its own frame, with its own curvature.
     std::vector<PlacedSurface> surfaces(std::size_t k) const;
     /// The transformation from its own frame to the array's.
     std::string frame(std::size_t k) const;
     /// The space over its aperture in its own frame, from low() to high(), its sides moved out by `wider`.
     std::string column(double radius, double wider) const;
-    /// The same placed in the array's frame.
+    /// Returns a shape of lens k placed in the array's frame.
     std::string placed(std::size_t k, const std::string& shape) const;
 
     /// Other lenses whose columns may meet its own or its tile.
@@ -48,9 +48,9 @@ class PovStands {
     /// The rectangle about its lattice point, as wide as the pitch: x and y of two corners in the array's frame. Those of lenses at
     /// the array's border go on outwards without end. Tiles cover the plane.
     std::array<double, 4> tile(std::size_t k) const;
-    /// Its tile as a box between two heights.
+    /// Returns the tile of lens k as a box between two heights.
     std::string tile_box(std::size_t k, double low, double high) const;
-    /// Its tile at one height, in the array's frame, less the holes. Without the closing brace.
+    /// Returns the tile of lens k at one height, in the array's frame, less the holes, without the closing brace.
     std::string flat(std::size_t k, double z, const std::vector<std::string>& holes) const;
 
     /// Boxes about all that belongs to a lens and its tile, and about all lenses of its row.

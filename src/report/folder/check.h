@@ -14,7 +14,8 @@ namespace lfdsim {
 std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, const Theory&,
                                              const std::optional<Vec3d>& model_half_size_mm = std::nullopt);
 
-/// Those faults with the faults of its content's files (their size, or that they cannot be read) and of its glasses.
+/// Returns the warnings of a display together with the faults of its content's files (their size, or that they cannot be read)
+/// and of its glasses.
 std::vector<std::string> worth_knowing(const Display&, const Geometry&, const Theory&);
 
 /// Every key, every length, the theory, why figures are undefined, and what is worth knowing: what `lfdsim check --json` prints.

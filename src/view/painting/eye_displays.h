@@ -8,7 +8,8 @@
 
 namespace lfdsim::view {
 
-/// One eye's display, and the display that its panel's light was made for, a different one where the elemental images are held.
+/// The display as one eye sees it, and the display that its panel's light was made for, a different one where the elemental
+/// images are held.
 struct EyeDisplay {
     std::string lane;
     Display display;
@@ -20,7 +21,7 @@ struct EyeDisplay {
     PanelKey key;
 };
 
-/// One for each eye, the left one first. Throws InputError.
+/// Returns the displays of the eyes, the left one first. Throws InputError.
 std::vector<EyeDisplay> seen(const Library&, const Wanted&);
 
 /// The display with a panel of `divisor` times fewer columns and rows, of larger pixels: its elemental images are close to the

@@ -46,7 +46,7 @@ bool drawn_for_lenses(const PanelContent& source) {
            (source.kind == Shown::Kind::pattern && (source.name == "view" || source.name == "edge"));
 }
 
-/// All that a posed scene depends on but its files and depth.
+/// Returns all that a posed scene depends on except its files and depth.
 Content pose_of(const Display& d, const Geometry& g) {
     Content pose = d.content;
     const Content fresh;

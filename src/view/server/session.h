@@ -1,4 +1,4 @@
-// One WebSocket connection: messages to a visitor, texts and frames from it. Floor 5.
+// A WebSocket connection: messages to a visitor, texts and frames from it. Floor 5.
 #pragma once
 #include "view/server/http.h"
 #include "view/server/mailbox.h"

@@ -1,4 +1,4 @@
-// One browser's visit: passes its messages to the painter and to answer(). Floor 5.
+// A browser's visit: passes its messages to the painter and to answer(). Floor 5.
 #pragma once
 #include "view/answers/library.h"
 #include "view/painting/painter.h"

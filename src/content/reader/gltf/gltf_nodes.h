@@ -16,7 +16,7 @@ class GltfNodes {
     /// Throws std::runtime_error for nodes that are no trees.
     explicit GltfNodes(const GltfFile&);
 
-    /// From a node's coordinates to the scene's.
+    /// Returns the transform from a node's coordinates to the scene's.
     const Matrix& world(std::size_t node) const { return world_[node]; }
     /// The nodes of the file's scene in its order; of a file without scenes, all. Parts that KHR_node_visibility hides are not
     /// among them.

@@ -9,8 +9,8 @@ namespace lfdsim::reader {
 /// does. Under AddressSanitizer the address space is not limited, as its shadow memory takes terabytes of it.
 void confine(std::int64_t bytes, double seconds);
 
-/// To be called for each file that is read: a few seconds, and more for each byte of all files, are what reading may take, so that
-/// a small file that makes a loader run in circles is given up soon. Without confine() before it, nothing is limited.
+/// Extends the time limit for a file that is to be read: a few seconds, and more for each byte of all files, so that a small file
+/// that makes a loader loop is given up soon. Has no effect without confine() before it.
 void allow_for(const std::filesystem::path&);
 
 }  // namespace lfdsim::reader

@@ -8,7 +8,7 @@ namespace lfdsim::reader {
 
 class NotShown {
   public:
-    /// In the plural: "animations".
+    /// Adds a feature that is not shown, in the plural: "animations".
     void add(const std::string& what) { all_.insert(what); }
 
     /// "animations and points are not shown", none where everything is.

@@ -8,7 +8,7 @@
 
 namespace lfdsim::reader {
 
-/// None where it cannot be opened.
+/// Reads a whole file; nothing if it cannot be opened.
 inline std::optional<std::string> whole_file(Assimp::IOSystem& io, const std::string& file) {
     Assimp::IOStream* const stream = io.Open(file.c_str(), "rb");
     if (!stream) return {};

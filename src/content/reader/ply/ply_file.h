@@ -6,7 +6,7 @@
 
 namespace lfdsim::reader {
 
-/// One number, or a list of numbers, of each of an element's rows.
+/// A property of an element: a number, or a list of numbers, in each of its rows.
 struct PlyProperty {
     std::string name;
     double unit = 1;  // what stands for 1 in its type, if it is a colour: 255 of bytes
