@@ -18,7 +18,7 @@ constexpr double dim_share = 0.3;   // of the brightest: an element that sees le
 
 float mean_of(const Image& image, std::size_t p) { return (image.rgb[3 * p] + image.rgb[3 * p + 1] + image.rgb[3 * p + 2]) / 3; }
 
-/// Erodes a marked region: removes elements next to one that is not marked, `times` times.
+/// Elements of a picture that are marked, without those next to one that is not, so many times.
 std::vector<std::uint8_t> without_border(std::vector<std::uint8_t> marked, int width, int height, int times) {
     for (int t = 0; t < times; ++t) {
         const std::vector<std::uint8_t> before = marked;

@@ -31,8 +31,7 @@ std::optional<std::vector<View>> views_of(const Request&, const Display&, std::s
 /// The median light of a white panel over the elements that are not dim, of eyes in the boxes. Throws InputError if there is none.
 double gain_of(std::span<const View>);
 
-/// Marks the elements that count: those that see more than 0.6 of the gain of a white panel, without a border of `border`
-/// elements.
+/// Elements count that see more than 0.6 of the gain of a white panel, without so many at the border of those.
 void count_elements(std::vector<View>&, double gain, int border);
 
 }  // namespace lfdsim

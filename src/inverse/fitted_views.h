@@ -22,8 +22,8 @@ struct View {
     std::vector<std::uint8_t> counted;  // elements: 1 where it sees the array well inside its border
 };
 
-/// Conversion from the content's light to a view's: black and white of the content in light over a white panel's, and the light
-/// of a white panel.
+/// From the content's light to a view's: black and white of the content in light over a white panel's, and the light of a white
+/// panel.
 struct Exposure {
     double black, white, gain;
     float of(float content) const { return float(gain * (black + (white - black) * double(content))); }
