@@ -186,7 +186,7 @@ EstimatorChoice::PixelColours EstimatorChoice::points_at(Kernel kernel, const st
 // of a white panel.
 void EstimatorChoice::look(Kernel kernel) {
     const std::vector<Rect> places = places_in({0, 0, points_.view.width, points_.view.height}, Limits::frame_places_an_axis);
-    struct Light {
+    struct FrameLight {
         double rms, mean;
     };
     const auto light = [&](bool of_white) {
@@ -197,9 +197,9 @@ void EstimatorChoice::look(Kernel kernel) {
             squares += double(a[k]) * b[k];
             sum += 0.5 * (double(a[k]) + b[k]);
         }
-        return Light{std::sqrt(squares / double(a.size())), sum / double(a.size())};
+        return FrameLight{std::sqrt(squares / double(a.size())), sum / double(a.size())};
     };
-    const Light content = light(false), white = light(true);
+    const FrameLight content = light(false), white = light(true);
     light_ = std::max(white.rms > 0 ? content.rms * std::min(white.mean / white.rms, 1.) : 0,
                       Limits::least_light * std::max(white.mean, Limits::least_white));
 }
