@@ -8,31 +8,46 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace lfdsim {
 namespace {
 
-constexpr double seen_share = 0.6;  // of the gain: an element that sees less of a white panel is at the border, or between lenses
-constexpr double dim_share = 0.3;   // of the brightest: an element that sees less does not count for the gain
+constexpr std::int64_t white_rays = 16;  // times those of a row: what it sees of a white panel is known better than its rays tell
+constexpr double least_light = 0.6;     // of the gain: where all elements nearby see less of a white panel none of them counts
+constexpr double least_share =
+    0.6;  // of the most light nearby: an element with less lies mostly between lenses or beside the array
+constexpr double whole_share = 0.9;  // an element with more lies in front of lenses all over
+constexpr double dim_share = 0.3;    // of the brightest: an element that sees less does not count for the gain
 
 float mean_of(const Image& image, std::size_t p) { return (image.rgb[3 * p] + image.rgb[3 * p + 1] + image.rgb[3 * p + 2]) / 3; }
 
-/// Elements of a picture that are marked, without those next to one that is not, so many times.
-std::vector<std::uint8_t> without_border(std::vector<std::uint8_t> marked, int width, int height, int times) {
-    for (int t = 0; t < times; ++t) {
-        const std::vector<std::uint8_t> before = marked;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                for (int dy = -1; dy <= 1; ++dy)
-                    for (int dx = -1; dx <= 1; ++dx) {
-                        const int i = x + dx, j = y + dy;
-                        if (i < 0 || j < 0 || i >= width || j >= height ||
-                            !before[std::size_t(j) * std::size_t(width) + std::size_t(i)])
-                            marked[std::size_t(y) * std::size_t(width) + std::size_t(x)] = 0;
-                    }
+/// The largest of each number and those within so many of it along a line of `count` that are `step` apart.
+void take_largest(std::vector<float>& of, std::size_t first, std::size_t step, int count, int within) {
+    std::vector<float> line(static_cast<std::size_t>(count));
+    for (int k = 0; k < count; ++k) line[std::size_t(k)] = of[first + std::size_t(k) * step];
+    for (int k = 0; k < count; ++k)
+        of[first + std::size_t(k) * step] =
+            *std::max_element(line.begin() + std::max(k - within, 0), line.begin() + std::min(k + within + 1, count));
+}
+
+/// What each element of a view sees of a white panel, and the most that an element within a lens pitch does.
+struct WhiteLight {
+    std::vector<float> here, nearby;
+    explicit WhiteLight(const View& view) : here(view.white.rgb.size() / 3) {
+        const int width = view.white.width, height = view.white.height, within = view.elements_a_lens;
+        for (std::size_t p = 0; p < here.size(); ++p) here[p] = mean_of(view.white, p);
+        nearby = here;
+        for (int y = 0; y < height; ++y) take_largest(nearby, std::size_t(y) * std::size_t(width), 1, width, within);
+        for (int x = 0; x < width; ++x) take_largest(nearby, std::size_t(x), std::size_t(width), height, within);
     }
-    return marked;
+};
+
+/// How many elements of a view lie across a lens pitch.
+int elements_across_lens(const Display& seen, const Geometry& geometry) {
+    const double pitch = is_strips(seen.array) ? seen.array.pitch_mm[0] : std::max(seen.array.pitch_mm[0], seen.array.pitch_mm[1]);
+    return int(std::ceil(std::min(pitch / geometry.frame_width_mm, 1.) * double(seen.camera.resolution[0])));
 }
 
 }  // namespace
@@ -82,15 +97,15 @@ std::optional<std::vector<View>> views_of(const Request& request, const Display&
         const Display seen = display_of(request, display, geometry, eye, rays);
         const Geometry there = resolve(seen);
         Image content = eye.picture ? *eye.picture : request.content_of(seen, there, samples, quiet);
-        Display filtered = seen;
-        filtered.render.estimator = Estimator::filtered;
-        filtered.render.samples.reset();
+        Display many = seen;
+        many.render.samples = white_rays * rays;
         RenderOptions options;
         options.threads = request.threads;  // which eyes and tiles share
         options.device = "cpu";
-        Rendering bright = render(filtered, there, white, options, quiet);
+        Rendering bright = render(many, there, white, options, quiet);
         if (request.job.cancelled()) return;
-        made[k] = View{ViewRows(seen, there), eye.weight, std::move(content), std::move(bright.image), {}};
+        made[k] =
+            View{ViewRows(seen, there), eye.weight, std::move(content), std::move(bright.image), elements_across_lens(seen, there)};
         request.job.advance(1);
     });
     std::vector<View> views;
@@ -103,9 +118,12 @@ std::optional<std::vector<View>> views_of(const Request& request, const Display&
 
 double gain_of(std::span<const View> views) {
     std::vector<float> light;
-    for (const View& view : views)
-        if (view.weight == 1)
-            for (std::size_t p = 0; p < view.white.rgb.size() / 3; ++p) light.push_back(mean_of(view.white, p));
+    for (const View& view : views) {
+        if (view.weight != 1) continue;
+        const WhiteLight white(view);
+        for (std::size_t p = 0; p < white.here.size(); ++p)
+            if (white.here[p] >= float(whole_share) * white.nearby[p]) light.push_back(white.here[p]);
+    }
     const float brightest = light.empty() ? 0 : *std::max_element(light.begin(), light.end());
     std::erase_if(light, [&](float x) { return !(x >= float(dim_share) * brightest) || !(x > 0); });
     if (light.empty()) throw InputError("content.inverse.eyes_mm", "no ray from these eyes ends on the panel");
@@ -114,11 +132,15 @@ double gain_of(std::span<const View> views) {
     return *middle;
 }
 
-void count_elements(std::vector<View>& views, double gain, int border) {
+void expect_light(std::vector<View>& views, double gain) {
     for (View& view : views) {
-        std::vector<std::uint8_t> bright(view.white.rgb.size() / 3);
-        for (std::size_t p = 0; p < bright.size(); ++p) bright[p] = mean_of(view.white, p) > float(seen_share * gain);
-        view.counted = without_border(std::move(bright), view.white.width, view.white.height, border);
+        const WhiteLight white(view);
+        view.expected.assign(white.here.size(), 0);
+        for (std::size_t p = 0; p < white.here.size(); ++p) {
+            if (!(white.nearby[p] > float(least_light * gain))) continue;
+            const float share = white.here[p] / white.nearby[p];
+            if (share > float(least_share)) view.expected[p] = share > float(whole_share) ? 1 : share;
+        }
     }
 }
 

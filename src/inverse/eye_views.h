@@ -28,10 +28,12 @@ ContentOf pictures_of(const LightField&, double focus_z_mm, FieldRays&);
 std::optional<std::vector<View>> views_of(const Request&, const Display&, std::span<const Eye>, std::int64_t rays,
                                           std::int64_t samples, const SummedPanel& white, const char* stage);
 
-/// The median light of a white panel over the elements that are not dim, of eyes in the boxes. Throws InputError if there is none.
+/// The median light of a white panel over the elements of eyes in the boxes, without those that are dim, or partly between lenses.
+/// Throws InputError if there is none.
 double gain_of(std::span<const View>);
 
-/// Elements count that see more than 0.6 of the gain of a white panel, without so many at the border of those.
-void count_elements(std::vector<View>&, double gain, int border);
+/// Which elements count, and the share of the gain that each can show: what it sees of a white panel over the most that an element
+/// within a lens pitch of it does. Where this is much less than 1, or the most much less than the gain, it does not count.
+void expect_light(std::vector<View>&, double gain);
 
 }  // namespace lfdsim

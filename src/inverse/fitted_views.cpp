@@ -43,7 +43,7 @@ double FittedViews::keep_rows(double bytes) {
     return std::min(double(taken), bytes);
 }
 
-/// do_it(element's number in the view, its row) for each counted element.
+/// do_it(element's number in the view, its row) for each element that counts.
 template <class Do>
 void FittedViews::for_strip(const Strip& strip, const Do& do_it) const {
     const View& view = views_[strip.view];
@@ -52,7 +52,7 @@ void FittedViews::for_strip(const Strip& strip, const Do& do_it) const {
     const Rows& rows = strip.kept ? *strip.kept : made;
     const std::size_t first = std::size_t(strip.y0) * std::size_t(view.rows.width());
     for (std::size_t p = 0; p + 1 < rows.start.size(); ++p)
-        if (view.counted[first + p]) do_it(first + p, rows.row(p));
+        if (view.expected[first + p] > 0) do_it(first + p, rows.row(p));
 }
 
 // A row r and channel c, each scaled so that of a white panel it sees what the view does:
@@ -85,7 +85,7 @@ double FittedViews::add_products(const Strip& strip, const PanelVector& x, bool 
         for (std::size_t c = 0; c < 3; ++c) {
             if (!(shares[c] > 0)) continue;
             const float content = view.content.rgb[p * 3 + c], white = view.white.rgb[p * 3 + c], scale = white / shares[c];
-            const float weight = view.weight * weight_of(content), target = exposure_.of(content);
+            const float weight = view.weight * weight_of(content), target = exposure_.of(content) * view.expected[p];
             const float error = light[c] * scale - (of_target ? target : 0);
             half_squares += 0.5 * double(weight) * double(error) * double(error);
             times[c] = double(weight) * double(error) * double(scale);
@@ -172,7 +172,7 @@ Image FittedViews::seen(std::size_t k, const PanelVector& x) const {
                 }
             for (std::size_t c = 0; c < 3; ++c) {
                 const double scale = shares[c] > 0 ? double(view.white.rgb[p * 3 + c]) / shares[c] : 0;
-                image.rgb[p * 3 + c] = exposure_.content_of(float(light[c] * scale));
+                image.rgb[p * 3 + c] = exposure_.content_of(float(light[c] * scale / double(view.expected[p])));
             }
         });
     });
@@ -180,28 +180,33 @@ Image FittedViews::seen(std::size_t k, const PanelVector& x) const {
 }
 
 Nearness FittedViews::nearness(std::size_t k, const PanelVector& x) const {
+    constexpr double most_between = 0.25;
     const View& view = views_[k];
-    const Image image = seen(k, x);
-    double squares = 0, count = 0;
+    Image image = seen(k, x);
+    double squares = 0, count = 0, between = 0;
     Region region;
     for (int y = 0; y < image.height; ++y) {
         Region::Row row{image.width, 0};
         for (int column = 0; column < image.width; ++column) {
             const std::size_t p = std::size_t(y) * std::size_t(image.width) + std::size_t(column);
-            if (!view.counted[p]) continue;
-            row = {std::min(row.from, column), column + 1};
-            count += 3;
-            for (std::size_t c = 0; c < 3; ++c) {
+            if (view.expected[p] > 0) {
+                row = {std::min(row.from, column), column + 1};
+                count += 3;
+            }
+            for (std::size_t c = 3 * p; c < 3 * p + 3; ++c) {
+                if (!(view.expected[p] > 0)) image.rgb[c] = view.content.rgb[c];
                 const auto code = [](float light) { return linear_to_srgb(std::clamp(double(light), 0., 1.)); };
-                const double difference = code(image.rgb[p * 3 + c]) - code(view.content.rgb[p * 3 + c]);
+                const double difference = code(image.rgb[c]) - code(view.content.rgb[c]);
                 squares += difference * difference;
             }
         }
+        for (int column = row.from; column < row.to; ++column)
+            between += !(view.expected[std::size_t(y) * std::size_t(image.width) + std::size_t(column)] > 0);
         region.rows.push_back(row);
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
     return {count > 0 ? -10 * std::log10(std::max(squares / count, 1e-12)) : nan,
-            ssim(image, view.content, std::span(&region, 1))[0]};
+            3 * between > most_between * count ? nan : ssim(image, view.content, std::span(&region, 1))[0]};
 }
 
 std::int64_t FittedViews::rays() const {

@@ -16,10 +16,12 @@ using PanelVector = std::vector<float>;
 /// What an eye should see, and how much each element of its view counts.
 struct View {
     ViewRows rows;
-    float weight;                       // of its errors
-    Image content;                      // what it should see, in the content's own light
-    Image white;                        // what it sees of a white panel
-    std::vector<std::uint8_t> counted;  // elements: 1 where it sees the array well inside its border
+    float weight;                      // of its errors
+    Image content;                     // what it should see, in the content's own light
+    Image white;                       // what it sees of a white panel
+    int elements_a_lens = 1;           // across a lens pitch
+    std::vector<float> expected = {};  // of each element the share of the gain that it can show: 1, less where it lies partly
+                                       // between lenses or beside the array; 0: it does not count
 };
 
 /// From the content's light to a view's: black and white of the content in light over a white panel's, and the light of a white
@@ -40,7 +42,7 @@ class FittedViews {
     /// Returns the bytes taken. A cancelled job keeps no more.
     double keep_rows(double bytes);
 
-    /// M'VU(M 1), the bound of the solver; sets the scale of later sums. Columns of pixels that no counted element sees are 0.
+    /// M'VU(M 1), the bound of the solver; sets the scale of later sums. Columns of pixels that no element sees that counts are 0.
     PanelVector bound(std::size_t size);
     /// half = M'VU(M x - t), and half the sum of squares. Sums are integers, so the order in which threads add does not matter.
     double half_gradient(const PanelVector& x, PanelVector& half);
@@ -49,7 +51,7 @@ class FittedViews {
     std::vector<double> light_in(std::size_t first, std::size_t step, std::size_t end, std::size_t size) const;
     /// What view k sees of a panel, in the content's light.
     Image seen(std::size_t k, const PanelVector& x) const;
-    /// Over the counted elements of view k.
+    /// Over the elements of view k that count. SSIM takes those in between as right; it is NaN where they are more than a quarter.
     Nearness nearness(std::size_t k, const PanelVector& x) const;
 
     std::int64_t rays() const;

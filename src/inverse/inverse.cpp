@@ -164,8 +164,8 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     auto others = views_of(request, request.shown, held_out_eyes, held_out_rays, held_out_content_samples, panel, "held-out eyes");
     if (!others) return stopped();
     const Exposure exposure{keys.levels[0], keys.levels[1], gain_of(*views)};
-    count_elements(*views, exposure.gain, 1);
-    count_elements(*others, exposure.gain, 2);
+    expect_light(*views, exposure.gain);
+    expect_light(*others, exposure.gain);
     const bool pixels = entries_are_pixels(request.display), codes = keys.weighting == ErrorOf::eye;
     FittedViews fitted(std::move(*views), pixels, codes, exposure, job), held_out(std::move(*others), pixels, codes, exposure, job);
     report.rays = fitted.rays();
@@ -191,7 +191,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
         for (std::size_t j = 0; j < size; ++j)
             if (bound[j] > 0) centre[j] = std::clamp(-half[j] / bound[j], 0.f, 1.f);
     }
-    const bool scored = !held_out_eyes.empty() && !std::isnan(mean_nearness(held_out, centre, 1).psnr_db);
+    const bool scored = !held_out_eyes.empty() && !std::isnan(mean_nearness(held_out, centre, 1000).psnr_db);
     if (!held_out_eyes.empty() && !scored)
         report.warnings.push_back("held-out eyes see too little of the screen to be compared: the last step's panel is written");
     Solved solved = solve(request, fitted, bound, scored ? &held_out : nullptr, start_of(request, centre), centre, report);

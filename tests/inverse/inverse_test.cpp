@@ -49,10 +49,10 @@ PanelVector random_vector(std::size_t size, std::uint64_t seed) {
 /// A view whose rows are not scaled: it sees of a white panel what its rows do.
 View plain_view(const Display& d) {
     const Geometry g = resolve(d);
-    View view{ViewRows(d, g), 1, Image(int(d.camera.resolution[0]), int(d.camera.resolution[1])), {}, {}};
+    View view{ViewRows(d, g), 1, Image(int(d.camera.resolution[0]), int(d.camera.resolution[1])), {}};
     Texels white = uniform_panel(d, 1);
     view.white = picture(d, white);
-    view.counted.assign(view.white.rgb.size() / 3, 1);
+    view.expected.assign(view.white.rgb.size() / 3, 1);
     return view;
 }
 

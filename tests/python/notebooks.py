@@ -32,7 +32,7 @@ class Notebooks(unittest.TestCase):
         import nbformat
 
         files = sorted(NOTEBOOKS.glob("*.ipynb"))
-        self.assertGreaterEqual(len(files), 3)
+        self.assertGreaterEqual(len(files), 4)
         for file in files:
             with self.subTest(file.name), tempfile.TemporaryDirectory(prefix="lfdsim-notebook-") as folder:
                 shutil.copy(file, folder)

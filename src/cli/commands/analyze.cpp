@@ -21,6 +21,7 @@
 #include "report/pages/side_by_side.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -118,6 +119,8 @@ struct Analysis {
             if (resume && folder.has(*m)) continue;
             left.push_back(m);
             steps += m->steps(subject);
+            if (subject.display().content.pickup == PickupKind::inverse && std::string_view(m->name) == "dof")
+                spdlog::warn("dof: the inverse pick-up is fitted once for each depth; each fit takes as long as lfdsim eia does");
         }
         Progress progress(progress_style);
         if (!left.empty()) progress.stage("analyzing", steps);

@@ -240,7 +240,7 @@ Picture make_quilt(ViewsMaker& maker, const ViewsArguments& args, const Display&
     Quiet one(progress);
     for (int n = 0; n < grid.columns; ++n) {
         const Picture view = maker.view(n, 0, one);
-        if (!view.complete) end_interrupted("");
+        if (!view.complete) end_interrupted();
         const int left = n % target.name.columns * target.width,
                   top = (target.name.rows - 1 - n / target.name.columns) * target.height;
         for (int y = 0; y < target.height; ++y)

@@ -94,7 +94,7 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
                                             Progress& progress) const {
     std::optional<ReadViews> views = read_views(source_, wish_, views_place(display, geometry), progress);
     progress.end();
-    if (!views) end_interrupted("");
+    if (!views) end_interrupted();
     for (const std::string& note : views->notes) spdlog::warn("{}: {}", source_.name, note);
     if (views->doubt.against_depth)
         spdlog::warn(
@@ -110,7 +110,7 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
     PanelOfViews made{{}, "", grid_json(grid)};
     if (inverse) {
         const std::vector<EyeBox> eyes = inverse_eyes(display, geometry, threads, progress);
-        if (eyes.empty()) end_interrupted("");
+        if (eyes.empty()) end_interrupted();
         InvertedPanel panel = invert(display, geometry, views->field, eyes, threads, progress);
         made.field.picture = std::move(panel.picture);
         made.inverse = std::move(panel.report);

@@ -15,7 +15,7 @@ PanelTexels shown_panel(const PanelImageOption& image, const PatternOption& shap
     if (shape.given()) return {shown_texels(pattern(shape.name(), display, geometry, pattern_options), display.panel.encoding)};
     const auto [picture, inverse] = shown_content(display, geometry, load_scene(display, geometry), threads, progress);
     progress.end();
-    if (!picture.complete) end_interrupted("");
+    if (!picture.complete) end_interrupted();
     Json images = {{"rays", picture.rays}, {"seconds", picture.seconds}};
     if (inverse) {
         warn_of_inverse(*inverse);

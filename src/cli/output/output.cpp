@@ -83,12 +83,12 @@ void OutputOptions::check_bits(const std::filesystem::path& name) const {
 }
 
 void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete,
-                          Progress& progress, std::vector<ImageLayer> layers) const {
+                          Progress& progress, std::vector<ImageLayer> layers, const std::string& content) const {
     progress.end();
     if (!complete) about[incomplete_mark] = "true";
     save(path(), image, encoding, display, std::move(about), std::move(layers), &progress);
     progress.end();
-    if (!complete) end_interrupted(path());
+    if (!complete) end_incomplete(path(), content);
 }
 
 void OutputOptions::save(const std::filesystem::path& path, const Image& image, Encoding encoding, const Display& display,
@@ -100,13 +100,14 @@ void OutputOptions::save(const std::filesystem::path& path, const Image& image, 
     write_image(path, image, {bits(), encoding, std::move(about), std::move(layers)}, job);
 }
 
-void end_interrupted(const std::string& saved) {
-    if (saved.empty())
-        spdlog::warn("interrupted; nothing was complete, so nothing was written");
-    else
-        spdlog::warn(
-            "interrupted; {} contains the completed part, the rest is black{}", saved,
-            keeps_metadata(saved) ? ", and is marked incomplete" : "; a file of this kind cannot say that it is incomplete");
+void end_interrupted() {
+    spdlog::warn("interrupted; nothing was complete, so nothing was written");
+    throw Interrupted{};
+}
+
+void end_incomplete(const std::string& picture, const std::string& content) {
+    spdlog::warn("interrupted; {} contains {}{}", picture, content.empty() ? "the completed part, the rest is black" : content,
+                 keeps_metadata(picture) ? ", and is marked incomplete" : "; a file of this kind cannot say that it is incomplete");
     throw Interrupted{};
 }
 

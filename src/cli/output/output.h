@@ -54,8 +54,9 @@ class OutputOptions {
     void check_bits(const std::filesystem::path& name) const;
     /// Saves the picture with `about`, the command line, version and display; work before it has shown its progress. One that is
     /// not complete is marked so, and the program then ends as interrupted. Layers are for the formats that keep them.
-    void write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&,
-               std::vector<ImageLayer> = {}) const;
+    /// `content`: what one that is not complete contains, if not its completed part.
+    void write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&, std::vector<ImageLayer> = {},
+               const std::string& content = {}) const;
     /// Saves a picture as write() does, at another path; a large one is a stage of the job.
     void save(const std::filesystem::path&, const Image&, Encoding, const Display&, Metadata about, std::vector<ImageLayer> = {},
               Job* = nullptr) const;
@@ -66,8 +67,10 @@ class OutputOptions {
     Option path_, bits_;
 };
 
-/// Says that the work was stopped: what has been saved, or nothing. Throws Interrupted.
-[[noreturn]] void end_interrupted(const std::string& saved);
+/// Says that the work was stopped and nothing was saved. Throws Interrupted.
+[[noreturn]] void end_interrupted();
+/// Says that the work was stopped and what the saved picture contains: by default its completed part. Throws Interrupted.
+[[noreturn]] void end_incomplete(const std::string& picture, const std::string& content = {});
 /// Ends an interrupted run whose folder contains `finished`, "3 of 9 views"; states whether a run with --resume continues there.
 [[noreturn]] void end_interrupted(const std::filesystem::path& folder, const std::string& finished, bool resumable = true);
 

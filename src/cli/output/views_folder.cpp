@@ -67,7 +67,7 @@ void ViewsFolder::check() const {
 
 void ViewsFolder::stop() const {
     const std::int64_t made = pictures_.count_finished();
-    if (made == 0) end_interrupted("");
+    if (made == 0) end_interrupted();
     end_interrupted(pictures_.folder, fmt::format("{} of {}", made, counted(pictures_.count, "picture")),
                     keeps_metadata(pictures_.file(0)));
 }

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <span>
 
 namespace lfdsim::view {
 namespace fs = std::filesystem;
@@ -59,7 +60,7 @@ fs::path resolve_inside(const fs::path& path, const fs::path& folder, const std:
     return real;
 }
 
-bool ends_in(const fs::path& path, std::initializer_list<std::string_view> endings) {
+bool ends_in(const fs::path& path, std::span<const std::string_view> endings) {
     std::string ending = path.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
@@ -68,13 +69,16 @@ bool ends_in(const fs::path& path, std::initializer_list<std::string_view> endin
 struct Served {
     Library::FileKind kind;
     const char* is;  // "a model"
-    std::initializer_list<std::string_view> endings;
+    std::span<const std::string_view> endings;
 };
+constexpr std::string_view display_endings[] = {".toml"};
+constexpr std::string_view model_endings[] = {".3ds",  ".3mf", ".amf", ".ase", ".blend", ".cob", ".dae", ".dxf", ".fbx", ".glb",
+                                              ".gltf", ".hmp", ".ifc", ".lwo", ".obj",   ".off", ".ply", ".smd", ".stl", ".x"};
+constexpr std::string_view picture_endings[] = {".png", ".jpg", ".jpeg", ".exr", ".npy"};
 constexpr Served served[] = {
-    {Library::FileKind::display, "a description of a display", {".toml"}},
-    {Library::FileKind::model, "a model", {".3ds",  ".3mf", ".amf", ".ase", ".blend", ".cob", ".dae", ".dxf", ".fbx", ".glb",
-                                           ".gltf", ".hmp", ".ifc", ".lwo", ".obj",   ".off", ".ply", ".smd", ".stl", ".x"}},
-    {Library::FileKind::picture, "a picture", {".png", ".jpg", ".jpeg", ".exr", ".npy"}},
+    {Library::FileKind::display, "a description of a display", display_endings},
+    {Library::FileKind::model, "a model", model_endings},
+    {Library::FileKind::picture, "a picture", picture_endings},
 };
 
 /// Whether a text means to be a display's description: the key "schema" stands above its first table. Nothing else is looked at.
