@@ -29,7 +29,8 @@ double views_within(std::span<const EyeBox>, const Display&, const Geometry&);
 /// the boxes in turn. Places from `first` on, so that held-out places continue the fitted ones.
 std::vector<Vec3d> places_within(std::span<const EyeBox>, std::int64_t first, std::int64_t count);
 
-/// Such places around the boxes, within so many view steps of them; fewer than `count` where that rim is very narrow.
+/// Returns eye positions around the boxes, up to `view_steps` view steps from them; fewer than `count` where that rim is very
+/// narrow.
 std::vector<Vec3d> places_around(std::span<const EyeBox>, const Display&, const Geometry&, double view_steps, std::int64_t count);
 
 /// Width of an element of a view, in the plane of the content's middle: content.inverse.pixel_mm or its default.

@@ -15,7 +15,7 @@ namespace lfdsim {
 namespace {
 
 constexpr std::int64_t white_rays = 16;  // times those of a row: what it sees of a white panel is known better than its rays tell
-constexpr double least_light = 0.6;     // of the gain: where all elements nearby see less of a white panel none of them counts
+constexpr double least_light = 0.6;      // of the gain: where all elements nearby see less of a white panel none of them counts
 constexpr double least_share =
     0.6;  // of the most light nearby: an element with less lies mostly between lenses or beside the array
 constexpr double whole_share = 0.9;  // an element with more lies in front of lenses all over
@@ -23,7 +23,7 @@ constexpr double dim_share = 0.3;    // of the brightest: an element that sees l
 
 float mean_of(const Image& image, std::size_t p) { return (image.rgb[3 * p] + image.rgb[3 * p + 1] + image.rgb[3 * p + 2]) / 3; }
 
-/// The largest of each number and those within so many of it along a line of `count` that are `step` apart.
+/// Replaces each of `count` numbers, `step` apart, by the largest of those within `within` places of it.
 void take_largest(std::vector<float>& of, std::size_t first, std::size_t step, int count, int within) {
     std::vector<float> line(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) line[std::size_t(k)] = of[first + std::size_t(k) * step];
@@ -32,7 +32,7 @@ void take_largest(std::vector<float>& of, std::size_t first, std::size_t step, i
             *std::max_element(line.begin() + std::max(k - within, 0), line.begin() + std::min(k + within + 1, count));
 }
 
-/// What each element of a view sees of a white panel, and the most that an element within a lens pitch does.
+/// The light of a white panel in each element of a view, and the greatest light of the elements within a lens pitch of it.
 struct WhiteLight {
     std::vector<float> here, nearby;
     explicit WhiteLight(const View& view) : here(view.white.rgb.size() / 3) {

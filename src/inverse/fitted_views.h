@@ -24,8 +24,8 @@ struct View {
                                        // between lenses or beside the array; 0: it does not count
 };
 
-/// From the content's light to a view's: black and white of the content in light over a white panel's, and the light of a white
-/// panel.
+/// Conversion from the content's light to a view's: black and white of the content in light over a white panel's, and the light
+/// of a white panel.
 struct Exposure {
     double black, white, gain;
     float of(float content) const { return float(gain * (black + (white - black) * double(content))); }

@@ -51,10 +51,10 @@ struct InvertedPanel {
 /// cannot see the display, and where memory is short.
 InvertedPanel invert(const Display&, const Geometry&, const ContentScene&, std::span<const EyeBox>, int threads, Job&);
 
-/// The same for a grid of views in place of a scene.
+/// Solves for the panel picture of a grid of views in place of a scene.
 InvertedPanel invert(const Display&, const Geometry&, const LightField&, std::span<const EyeBox>, int threads, Job&);
 
-/// The same for given pictures; there are no held-out eyes, and the last panel is taken.
+/// Solves for the panel picture of given pictures; there are no held-out eyes, and the last panel is taken.
 InvertedPanel invert(const Display&, const Geometry&, const EyePictures&, int threads, Job&);
 
 }  // namespace lfdsim

@@ -41,15 +41,15 @@ std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, floa
 /// The display with the camera that stands for an eye, and so many rays for each element of its view. Throws InputError.
 Display display_of(const Request&, const Display&, const Geometry&, const Eye&, std::int64_t rays);
 
-/// How many panel pixels the eyes meet, elements that see light, and rays with light.
+/// The numbers of panel pixels that the eyes meet, of elements that see light, and of rays with light.
 struct EyeCounts {
     double pixels = 0, rows = 0, lit = 0;
 };
 EyeCounts count(const Request&, std::span<const Eye>);
 
-/// For each panel pixel that eyes meet: elements of their views, and rays of these with light.
+/// The intended numbers of elements of views and of rays with light for each panel pixel that eyes meet.
 inline constexpr double rows_wanted = 4, rays_wanted = 160;
-/// So many rays of an element that each panel pixel met has rays_wanted with light.
+/// Returns the rays per element with which each panel pixel met has rays_wanted rays that carry light.
 std::int64_t rays_for(const EyeCounts&);
 
 /// The places and the rays of an element, from the boxes and what their eyes meet.

@@ -27,7 +27,7 @@ for name, arguments, words in [
     ("one file too many", "check tiny.toml panel.png", "panel.png"),
     ("unknown command with options", "rendr tiny.toml -o out.png", "rendr: unknown command; did you mean render?"),
     ("a display for a command", "tiny.toml -o out.png", "lfdsim check tiny.toml"),
-    ("measure behind the display", "analyze tiny.toml fov -o out", "fov: is a measure, and these come first: lfdsim analyze fov tiny.toml"),
+    ("measure behind the display", "analyze tiny.toml fov -o out", "fov: is a measure; measures come before the display: lfdsim analyze fov tiny.toml"),
     ("measures behind the display", "analyze tiny.toml fov,mtf", "lfdsim analyze fov,mtf tiny.toml"),
     ("peer behind the display", "export tiny.toml pov -o scene", "lfdsim export pov tiny.toml"),
     ("spaces for commas", "render tiny.toml --camera-mm 40 0 599 -o out.png", "--camera-mm 40,0,599"),

@@ -45,9 +45,9 @@ struct AnalyzeArguments {
                                     "is short for content.pickup=nodal,traced,inverse");
     Option output = command.option("-o,--output", "DIR REQUIRED",  // told with what else is wrong
                                    "Folder for the results and report.html; created if missing");
-    Flag resume = command.flag("--resume", "Skip what an earlier run with the same settings has finished there");
+    Flag resume = command.flag("--resume", "Skip measures that an earlier run with the same settings has finished there");
     Flag replace = command.flag(
-        "--replace", "Remove what an earlier run with other settings has left there, and write over files of other origin");
+        "--replace", "Remove the results of an earlier run with other settings there, and overwrite files of other origin");
     Option angles = command.option("--angles-deg", "FROM,TO,STEP",
                                    "Views of the field of view; default: 61 or more, beyond the expected edges");
     Option depths =
@@ -64,10 +64,10 @@ std::vector<double> steps(const Option& option, double low, double high, const c
     if (option.empty()) return {};
     const std::vector<double> v = option.numbers(example);
     if (!(v[0] < v[1] && v[2] > 0 && (v[1] - v[0]) / v[2] <= 10000 && v[0] >= low && v[1] <= high))
-        throw InputError(option.name(),
-                         fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0 that makes at most "
-                                     "10000 of them",
-                                     option.text(), low, high));
+        throw InputError(
+            option.name(),
+            fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0, for at most 10000 values",
+                        option.text(), low, high));
     std::vector<double> all;
     for (int k = 0; v[0] + k * v[2] <= v[1] + 1e-9 * v[2]; ++k) all.push_back(v[0] + k * v[2]);
     return all;
@@ -183,8 +183,9 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
     std::error_code none;
     if (!names_measures(names) && (names.ends_with(".toml") || std::filesystem::is_regular_file(names, none))) {
         if (names_measures(args.display.path()) && !std::filesystem::exists(args.display.path(), none))
-            throw InputError(args.display.path(), fmt::format("is a measure, and these come first: lfdsim analyze {} {} ...",
-                                                              args.display.path(), shell_file(names)));
+            throw InputError(args.display.path(),
+                             fmt::format("is a measure; measures come before the display: lfdsim analyze {} {} ...",
+                                         args.display.path(), shell_file(names)));
         if (args.display.path().empty()) request.paths.clear();
         request.paths.insert(request.paths.begin(), names);
         names = "all";

@@ -101,7 +101,7 @@ void run(const EiaArguments& args) {
 
 CommandSpec eia_command() {
     return {.name = "eia",
-            .summary = "Makes the panel's picture: the elemental images of a model or of views, or a test pattern",
+            .summary = "Computes the panel's picture: the elemental images of a model or of views, or a test pattern",
             .examples =
                 "Examples:\n  lfdsim eia display.toml --model monkey.blend --height-mm 120 -o eia.png\n"
                 "  lfdsim eia display.toml --views lego --baseline-mm 12 --focus-depth-mm 0 -o eia.png\n"

@@ -47,12 +47,12 @@ struct ViewsArguments {
     WorkOptions work{command};
     Flag resume = command.flag("--resume", "Skip views in the folder that the same command has already made from the same files");
     Flag replace =
-        command.flag("--replace", "Remove views there that another command has made, or write over the .toml beside a quilt");
+        command.flag("--replace", "Remove views there that another command has made, or overwrite the .toml beside a quilt");
     Option of_what =
         command.option("--of", "content|display", "Views of the content itself, or of what the simulated display shows")
             .initially("content")
             .shown();
-    Option count = command.option("--grid", "CxR", "Columns and rows of views in a folder; default 9x9, of strips 9x1");
+    Option count = command.option("--grid", "CxR", "Columns and rows of views in a folder; default 9x9, for strips 9x1");
     Option size = command.option("--view-size", "WxH", "Pixels of a view; default 480 wide");
     Option kind = command.option("--views-as", "png|exr|npy", "Files in the folder").initially("png").shown();
     Flag depth = command.flag("--depth", "Write a depth map for each view of the content, too");

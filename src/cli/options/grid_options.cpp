@@ -97,13 +97,12 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
     if (!views) end_interrupted();
     for (const std::string& note : views->notes) spdlog::warn("{}: {}", source_.name, note);
     if (views->doubt.against_depth)
-        spdlog::warn(
-            "{}: points that are near in its depth map move from view to view as far ones do: the views are pseudoscopic{}",
-            source_.name, flip_ ? "; leave out --flip-views" : "; --flip-views reverses them");
+        spdlog::warn("{}: near points of its depth map move from view to view as far points should: the views are pseudoscopic{}",
+                     source_.name, flip_ ? "; leave out --flip-views" : "; --flip-views reverses them");
     else if (views->doubt.axes_disagree)
         spdlog::warn(
-            "{}: points that are near by their motion from column to column are far by that from row to row: rows or columns are "
-            "in reversed order",
+            "{}: the motion from column to column and that from row to row contradict each other in depth: rows or columns are in "
+            "reversed order",
             source_.name);
     const ViewGrid& grid = views->field.grid();
     const bool inverse = display.content.pickup == PickupKind::inverse;
@@ -127,10 +126,11 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
                       {"beside_focus", made.field.beside_focus}});
     made.text = fmt::format("; {}{}", grid_text(grid), views->field.by_depth() ? ", by depth" : "");
     if (made.field.beside_cameras > 0)
-        made.text +=
-            fmt::format("; {:.1f} % of the rays pass beside the cameras: black", 100 * double(made.field.beside_cameras) / rays);
+        made.text += fmt::format("; {:.1f} % of the rays pass beside the cameras and are black",
+                                 100 * double(made.field.beside_cameras) / rays);
     if (made.field.beside_focus > 0)
-        made.text += fmt::format("; {:.1f} % beside the views' edges: black", 100 * double(made.field.beside_focus) / rays);
+        made.text +=
+            fmt::format("; {:.1f} % pass beside the views' edges and are black", 100 * double(made.field.beside_focus) / rays);
     return made;
 }
 

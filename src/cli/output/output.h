@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 /// Writes to standard output: all text that a command prints goes through here, and nothing in it is obeyed by a terminal
 /// (base/printable.h). JSON stays the same document. Throws std::runtime_error when it cannot be written (closed pipe, full disk).
 void print(std::string_view text);
-/// One JSON document; numbers that are not finite become null.
+/// Prints a JSON document; numbers that are not finite become null.
 void print_json(const Json&);
 
 /// Writes a text file, which is whole or not there. Throws InputError if the command reads that very file.

@@ -57,7 +57,7 @@ void ViewsFolder::check() const {
                             made, counted(pictures_.count, "picture")));
         pictures_.keep_apart();
         throw InputError(folder.string(),
-                         "contains other files; give an empty folder for the views, or --replace to write among them");
+                         "contains other files; give an empty folder for the views, or --replace to write beside them");
     }
     if (const fs::path toml = toml_file(); !pictures_.replace && fs::exists(fs::symlink_status(toml, none)) && !holds(toml, toml_))
         throw InputError(toml.string(), "is of other views; give another folder, or --replace to write over it");
