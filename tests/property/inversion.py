@@ -14,10 +14,9 @@ import tempfile
 
 import numpy as np
 
-import run  # before oracle.py, which looks in tests/oracle first
+import run
 
 import displays
-import oracle
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
@@ -37,38 +36,35 @@ def shares(white, gain, pitch):
     return np.where(share > 0.6, share, 0)
 
 
+def show_walls(_, description):
+    """Gives a display two pictures of a wall to show."""
+    distance, width = description["camera"]["position_mm"][2], panel_mm(description)[0]
+    wall = str(ROOT / "examples/wall.png")
+    content = description.setdefault("content", {})
+    content["object"] = [{"image": wall, "position_mm": [0, 0, -min(0.05 * width, 0.1 * distance)], "width_mm": 1.5 * width},
+                         {"image": wall, "position_mm": [0.1 * width, 0, min(0.03 * width, 0.05 * distance)], "width_mm": 0.3 * width}]
+    for key in ("model", "depth_mm", "height_mm"):
+        content.pop(key, None)
+    for key in ("estimator", "samples"):
+        description["render"].pop(key, None)
+
+
+def panel_mm(description):
+    return np.array(description["panel"]["pixels"]) * description["panel"]["pixel_pitch_mm"]
+
+
+def element_mm(description, theory):
+    """The default of content.inverse.pixel_mm: what finer elements of a view see is not fitted."""
+    pitch, panel, image = np.min(description["array"]["pitch_mm"]), description["panel"], theory["pixel_image_mm"]
+    finest = min(pitch, image) if isinstance(image, float) else pitch  # none of pinholes, or infinite
+    if "subpixels" in panel:
+        finest = max(finest, 12 * panel["pixel_pitch_mm"])
+    return max(finest / 2, description["camera"]["position_mm"][2] * math.tan(math.radians(1 / 60)))
+
+
 class Inversions:
     def __init__(self, options, folder):
         self.options, self.folder, self.harness = options, folder, run.Harness(options.program, folder, False, int(options.panel_pixels))
-
-    def drawn(self, number):
-        """The first drawing of this number that check accepts, with the scene, its file and the width of its panel in mm."""
-        for again in range(run.TRIES):
-            description = displays.draw(number + 1000 * again, self.harness.most_pixels)
-            panel, distance = description["panel"], description["camera"]["position_mm"][2]
-            width = panel["pixels"][0] * panel["pixel_pitch_mm"]
-            wall = str(ROOT / "examples/wall.png")
-            description.setdefault("content", {})["object"] = [
-                {"image": wall, "position_mm": [0, 0, -min(0.05 * width, 0.1 * distance)], "width_mm": 1.5 * width},
-                {"image": wall, "position_mm": [0.1 * width, 0, min(0.03 * width, 0.05 * distance)], "width_mm": 0.3 * width}]
-            for key in ("model", "depth_mm", "height_mm"):
-                description["content"].pop(key, None)
-            for key in ("estimator", "samples"):
-                description["render"].pop(key, None)
-            path = self.folder / f"{number}.toml"
-            path.write_text(oracle.to_toml(description))
-            if self.harness.lfdsim("check", path, "--json").returncode == 0:
-                return description, path, width
-        raise RuntimeError(f"display {number}: {run.TRIES} drawings refused")
-
-    def element_mm(self, description, path):
-        """The default of content.inverse.pixel_mm: what finer elements of a view see is not fitted."""
-        pitch, panel = np.min(description["array"]["pitch_mm"]), description["panel"]
-        image = json.loads(self.harness.lfdsim("check", path, "--json").stdout)["theory"]["pixel_image_mm"]
-        finest = min(pitch, image) if isinstance(image, float) else pitch  # none of pinholes, or infinite
-        if "subpixels" in panel:
-            finest = max(finest, 12 * panel["pixel_pitch_mm"])
-        return max(finest / 2, description["camera"]["position_mm"][2] * math.tan(math.radians(1 / 60)))
 
     def picture(self, *command):
         out = self.folder / "picture.npy"
@@ -79,7 +75,8 @@ class Inversions:
 
     def display(self, number):
         """What the program says, and the PSNR of each eye's view by traced and by inverse content; nothing where no eye sees the screen."""
-        description, path, width = self.drawn(number)
+        description, path, checked, _ = self.harness.drawn(number, show_walls)
+        width, height = panel_mm(description)
         said = {}
         for pickup in ("traced", "inverse"):
             done = self.harness.lfdsim("eia", path, "--pickup", pickup, "--json", "--progress", "none", "-o", self.folder / f"{pickup}.png")
@@ -89,8 +86,7 @@ class Inversions:
         report = said["inverse"]["inverse"]
         rng = np.random.default_rng([2031, number])
         places = [rng.uniform(*(np.array(box[k], float) for k in ("low_mm", "high_mm"))) for box in report["eyes"] for _ in range(EYES)]
-        height = description["panel"]["pixels"][1] * description["panel"]["pixel_pitch_mm"]
-        columns = min(max(round(1.1 * width / self.element_mm(description, path)), 16), 240)
+        columns = min(max(round(1.1 * width / element_mm(description, checked["theory"])), 16), 240)
         rows = min(max(12, round(columns * height / width)), 240)
 
         def camera(eye):

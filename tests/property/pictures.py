@@ -69,17 +69,6 @@ class Pictures:
     def __init__(self, options, folder):
         self.options, self.folder, self.harness = options, folder, run.Harness(options.program, folder, False, int(options.panel_pixels))
 
-    def drawn(self, number):
-        """The first drawing of this number that check accepts, and its file."""
-        for again in range(run.TRIES):
-            description = displays.draw(number + 1000 * again, self.harness.most_pixels)
-            looked_at(number + 1000 * again, description)
-            path = self.folder / f"{number}.toml"
-            path.write_text(oracle.to_toml(description))
-            if self.harness.lfdsim("check", path, "--json").returncode == 0:
-                return description, path
-        raise RuntimeError(f"display {number}: {run.TRIES} drawings refused")
-
     def picture(self, path, shown, crop, estimator, samples, seed):
         size, at = CROPS[crop]
         out = path.with_suffix(f".{crop}.npy")
@@ -96,7 +85,7 @@ class Pictures:
 
     def display(self, number):
         """A row for each case."""
-        description, path = self.drawn(number)
+        description, path, _, _ = self.harness.drawn(number, looked_at)
         columns, rows = description["panel"]["pixels"]
         result = []
         for panel in ("white", "noise"):

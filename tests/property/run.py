@@ -36,10 +36,12 @@ class Harness:
     def lfdsim(self, *arguments):
         return subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, timeout=3600, cwd=self.folder)
 
-    def drawn(self, number):
-        """The first drawing of this number that check accepts: (description, its file, check's result, drawings refused)."""
+    def drawn(self, number, change=None):
+        """The first drawing of this number, changed by change(number, description), that check accepts: (description, its file, check's result, drawings refused)."""
         for refused in range(TRIES):
             description = displays.draw(number + 1000 * refused, self.most_pixels)
+            if change:
+                change(number + 1000 * refused, description)
             path = self.folder / f"{number}.toml"
             path.write_text(oracle.to_toml(description))
             done = self.lfdsim("check", path, "--json")
