@@ -14,10 +14,8 @@
 namespace lfdsim {
 namespace {
 
-constexpr std::int64_t white_rays = 16;  // times those of a row: what it sees of a white panel is known better than its rays tell
-constexpr double least_light = 0.6;      // of the gain: where all elements nearby see less of a white panel none of them counts
-constexpr double least_share =
-    0.6;  // of the most light nearby: an element with less lies mostly between lenses or beside the array
+constexpr double least_light = 0.6;  // of the gain: where all elements nearby see less of a white panel none of them counts
+constexpr double least_share = 0.6;  // of the most light nearby: one with less lies mostly between lenses or beside the array
 constexpr double whole_share = 0.9;  // an element with more lies in front of lenses all over
 constexpr double dim_share = 0.3;    // of the brightest: an element that sees less does not count for the gain
 
@@ -86,7 +84,8 @@ ContentOf pictures_of(const LightField& field, double focus_z_mm, FieldRays& ray
 }
 
 std::optional<std::vector<View>> views_of(const Request& request, const Display& display, std::span<const Eye> eyes,
-                                          std::int64_t rays, std::int64_t samples, const SummedPanel& white, const char* stage) {
+                                          std::int64_t rays, std::int64_t white_points, std::int64_t samples,
+                                          const SummedPanel& white, const char* stage) {
     const Geometry geometry = resolve(display);
     request.job.stage(stage, std::int64_t(eyes.size()));
     std::vector<std::optional<View>> made(eyes.size());
@@ -98,7 +97,7 @@ std::optional<std::vector<View>> views_of(const Request& request, const Display&
         const Geometry there = resolve(seen);
         Image content = eye.picture ? *eye.picture : request.content_of(seen, there, samples, quiet);
         Display many = seen;
-        many.render.samples = white_rays * rays;
+        many.render.samples = white_points;
         RenderOptions options;
         options.threads = request.threads;  // which eyes and tiles share
         options.device = "cpu";

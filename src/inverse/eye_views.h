@@ -26,7 +26,8 @@ ContentOf pictures_of(const LightField&, double focus_z_mm, FieldRays&);
 
 /// The views of eyes as a display shows them, of which no element counts yet. Nothing if the job is cancelled.
 std::optional<std::vector<View>> views_of(const Request&, const Display&, std::span<const Eye>, std::int64_t rays,
-                                          std::int64_t samples, const SummedPanel& white, const char* stage);
+                                          std::int64_t white_points, std::int64_t samples, const SummedPanel& white,
+                                          const char* stage);
 
 /// The median light of a white panel over the elements of eyes in the boxes, without those that are dim, or partly between lenses.
 /// Throws InputError if there is none.

@@ -145,8 +145,8 @@ double memory_for_rays(const Request& request, const Display& seen) {
 }
 
 /// Fits the eyes' views; `traced`: the picture to which the fit is pulled and with which it begins, if there is one.
-InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<const Eye> held_out_eyes, std::int64_t rays,
-                  const std::optional<Picture>& traced, InverseReport report) {
+InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<const Eye> held_out_eyes, const EyeCounts& counts,
+                  std::int64_t rays, const std::optional<Picture>& traced, InverseReport report) {
     const auto start = Clock::now();
     Job& job = request.job;
     const Inverse& keys = request.keys();
@@ -159,9 +159,11 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     const double bytes = memory_for_rays(request, display_of(request, request.display, request.geometry, eyes.front(), rays));
     const Texels white = make_texels(pattern("white", request.display, request.geometry));
     const SummedPanel panel(white, request.threads);
-    auto views = views_of(request, request.display, eyes, rays, content_samples, panel, "photographs of the scene");
+    auto views = views_of(request, request.display, eyes, rays, white_points_for(request, counts, rays), content_samples, panel,
+                          "photographs of the scene");
     if (!views) return stopped();
-    auto others = views_of(request, request.shown, held_out_eyes, held_out_rays, held_out_content_samples, panel, "held-out eyes");
+    auto others = views_of(request, request.shown, held_out_eyes, held_out_rays, white_points_for(request, counts, held_out_rays),
+                           held_out_content_samples, panel, "held-out eyes");
     if (!others) return stopped();
     const Exposure exposure{keys.levels[0], keys.levels[1], gain_of(*views)};
     expect_light(*views, exposure.gain);
@@ -267,7 +269,7 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
                 "\"built\" makes "
                 "it for that one");
         const std::vector<Eye> held_out = eyes_at(places_within(request.boxes, p.in_boxes, keys.held_out), 2'000'000, 1);
-        InvertedPanel made = fit(request, p.eyes, held_out, p.rays, traced, std::move(report));
+        InvertedPanel made = fit(request, p.eyes, held_out, p.counts, p.rays, traced, std::move(report));
         if (made.report.traced)
             made.report.warnings.push_back(
                 "traced content serves eyes that were not fitted better, and is written: there are too few places or "
@@ -329,7 +331,7 @@ InvertedPanel invert(const Display& display, const Geometry& as_shown, const Eye
         report.rows_per_unknown = counts.rows / counts.pixels;
         report.rays_per_unknown = counts.lit * double(report.rays_per_element) / counts.pixels;
         report.prior = request.keys().prior.value_or(usual_prior);
-        return fit(request, eyes, {}, report.rays_per_element, {}, report);
+        return fit(request, eyes, {}, counts, report.rays_per_element, {}, report);
     });
 }
 

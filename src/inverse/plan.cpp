@@ -81,6 +81,12 @@ std::int64_t rays_for(const EyeCounts& counts) {
     return 4 * std::clamp<std::int64_t>(std::int64_t(std::ceil(needed / 4)), 1, 1024);
 }
 
+std::int64_t white_points_for(const Request& request, const EyeCounts& counts, std::int64_t rays) {
+    const bool subpixels = request.display.panel.subpixels != SubpixelLayout::none;
+    const double lit_share = counts.lit / counts.rows / (subpixels ? 3 : 1);  // of the rays, in one colour
+    return rays * std::clamp<std::int64_t>(std::int64_t(std::ceil(4 / lit_share)), 4, 64);
+}
+
 Plan plan(const Request& request) {
     const Inverse& keys = request.keys();
     const double rim = keys.rim.value_or(is_strips(request.display.array) ? 0 : 3);

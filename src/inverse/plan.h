@@ -52,6 +52,10 @@ inline constexpr double rows_wanted = 4, rays_wanted = 160;
 /// Returns the rays per element with which each panel pixel met has rays_wanted rays that carry light.
 std::int64_t rays_for(const EyeCounts&);
 
+/// Returns the number of points by which an element's light of a white panel is computed: four with light, in each colour, for each
+/// ray of its row, so that it is known better than from those rays.
+std::int64_t white_points_for(const Request&, const EyeCounts&, std::int64_t rays);
+
 /// The places and the rays of an element, from the boxes and what their eyes meet.
 struct Plan {
     std::vector<Eye> eyes;
