@@ -84,7 +84,7 @@ std::int64_t rays_for(const EyeCounts& counts) {
 std::int64_t white_points_for(const Request& request, const EyeCounts& counts, std::int64_t rays) {
     const bool subpixels = request.display.panel.subpixels != SubpixelLayout::none;
     const double lit_share = counts.lit / counts.rows / (subpixels ? 3 : 1);  // of the rays, in one colour
-    return rays * std::clamp<std::int64_t>(std::int64_t(std::ceil(4 / lit_share)), 4, 64);
+    return rays * std::clamp<std::int64_t>(std::int64_t(std::ceil(4 / lit_share)), 4, 16);
 }
 
 Plan plan(const Request& request) {

@@ -53,7 +53,7 @@ inline constexpr double rows_wanted = 4, rays_wanted = 160;
 std::int64_t rays_for(const EyeCounts&);
 
 /// Returns the number of points by which an element's light of a white panel is computed: four with light, in each colour, for each
-/// ray of its row, so that it is known better than from those rays.
+/// ray of its row, 16 for each at most, so that it is known better than from those rays.
 std::int64_t white_points_for(const Request&, const EyeCounts&, std::int64_t rays);
 
 /// The places and the rays of an element, from the boxes and what their eyes meet.
