@@ -65,7 +65,9 @@ TEST(Lenticular, TwoViewsStandBeforeTwoEyes) {
             const double pixels = (border + offset) / a + 0.5 * double(columns);  // from the panel's left side
             EXPECT_NEAR(pixels, std::round(pixels), 1e-4) << columns << ' ' << views;
             EXPECT_GE(double(d.array.count->at(0)) * views, double(columns) - 1);
-            if (views == 2) EXPECT_NEAR(a * o.eye_mm / o.gap_mm, 65, 0.01);
+            if (views == 2) {
+                EXPECT_NEAR(a * o.eye_mm / o.gap_mm, 65, 0.01);
+            }
         }
 }
 

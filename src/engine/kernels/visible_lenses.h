@@ -113,8 +113,10 @@ class VisibleLenses : public LensDomain {
         for (int k = 0; k < padded; ++k) {
             coordinates[domain][k] = part.x;
             coordinates[domain + 1][k] = part.y;
-            const int d = (k - 1) / 2;
-            if (k > 0 && d < dimensions) coordinates[d][k] = coordinates[d][k] + (k % 2 == 1 ? step[d] : -step[d]);
+        }
+        for (int d = 0; d < dimensions; ++d) {
+            coordinates[d][2 * d + 1] = coordinates[d][2 * d + 1] + step[d];
+            coordinates[d][2 * d + 2] = coordinates[d][2 * d + 2] - step[d];
         }
         S column[padded], row[padded], lit[padded], i[padded], j[padded];
         const optics::PixelRays<F> same{F(middle.x),          F(middle.y), {F(middle.to.x), F(middle.to.y), F(middle.to.z)},

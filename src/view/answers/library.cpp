@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <span>
+#include <stdexcept>
 
 namespace lfdsim::view {
 namespace fs = std::filesystem;
@@ -80,6 +81,12 @@ constexpr Served served[] = {
     {Library::FileKind::model, "a model", model_endings},
     {Library::FileKind::picture, "a picture", picture_endings},
 };
+
+const Served& served_as(Library::FileKind kind) {
+    for (const Served& s : served)
+        if (s.kind == kind) return s;
+    throw std::logic_error("a kind of file that is not served");
+}
 
 /// Whether a text means to be a display's description: the key "schema" stands above its first table. Nothing else is looked at.
 bool is_description(std::string_view text) {
@@ -165,7 +172,7 @@ fs::path Library::file(const std::string& name, FileKind kind) const {
     const fs::path path = folder_ / relative(name);
     if (std::error_code error; !fs::is_regular_file(resolve_inside(path, folder_, name), error))
         throw InputError(quoted(name), "is not a plain file");
-    const Served& is = *std::find_if(std::begin(served), std::end(served), [&](const Served& s) { return s.kind == kind; });
+    const Served& is = served_as(kind);
     if (!ends_in(path, is.endings))
         throw InputError(quoted(name), fmt::format("is not {}; those end in {}", is.is, fmt::join(is.endings, ", ")));
     if (kind == FileKind::display && !meant_as_description(path))
