@@ -96,9 +96,12 @@ TEST(PupilLight, ShareOfTheCellIsWhatLinesOfSightFind) {
         const ApertureShape shape = aperture_shape(d, g);
         const double cell = g.lattice.pitch[0] * g.lattice.pitch[1];
         const double found = traced(d, g, 1e4);
-        if (!d.array.slant_deg)  // else strips reach beyond the panel
+        if (!d.array.slant_deg) {  // else strips reach beyond the panel
             EXPECT_NEAR(found, area_of(shape, g.lattice) / cell, 0.005) << n;
-        if (n % 4 == 0) EXPECT_NEAR(luminance_over_panel(d, g, 1e4).value, found, 0.004) << n;
+        }
+        if (n % 4 == 0) {
+            EXPECT_NEAR(luminance_over_panel(d, g, 1e4).value, found, 0.004) << n;
+        }
         ++checked;
         inside += g.pupil.inner_z.has_value();
         cut += shape.form == ApertureShape::ApertureForm::cut;

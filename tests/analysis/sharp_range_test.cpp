@@ -32,7 +32,9 @@ TEST(SharpRange, HoldsWhereTheSpotIsNarrowEnough) {
         through_infinity += std::isinf(pixel.behind.low) && !pixel.in_front.empty();
         for (int k = 0; k < 100; ++k) {
             const double z = k % 2 ? between(-3000, eye - g.vertex_plane_mm) : between(-60, 60), spot = D * std::abs(1 - z / L);
-            if (std::abs(spot - pitch) > 1e-9 * pitch) EXPECT_EQ(lens.holds(z), spot <= pitch) << n << " " << z;
+            if (std::abs(spot - pitch) > 1e-9 * pitch) {
+                EXPECT_EQ(lens.holds(z), spot <= pitch) << n << " " << z;
+            }
             EXPECT_EQ(pixel.holds(z), spot <= a * std::abs(z) / gap) << n << " " << z;
         }
     }

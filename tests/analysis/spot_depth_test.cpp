@@ -43,8 +43,9 @@ TEST(SpotDepth, OfIdealLensesIsTheParaxialOne) {
                 EXPECT_NEAR(end(ends, 0), 1000 * t.depth_near_per_mm, tolerance) << fov << " " << pitch << " " << f_per_gap;
                 EXPECT_NEAR(end(ends, 1), 1000 * t.depth_far_per_mm, tolerance) << fov << " " << pitch << " " << f_per_gap;
                 EXPECT_LT(end(errors, 0) + end(errors, 1), tolerance);
-                if (end(ends, 0) > 5)  // less is behind the eye; an ideal lens is its own vertex plane
+                if (end(ends, 0) > 5) {  // less is behind the eye; an ideal lens is its own vertex plane
                     EXPECT_NEAR(end(figures.at("by_pixel").at("in_front_mm"), 0) * end(ends, 0), 1000, 1e-6);
+                }
             }
 }
 

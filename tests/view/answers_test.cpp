@@ -31,7 +31,7 @@ void expect_finite(const Json& json) {
 
 class AnswersTest : public FolderTest {
   protected:
-    inline static Panels panels;
+    inline static Panels panels{free_bytes()};
     Library library(std::vector<std::string> set = {}) const {
         return Library({folder / "small.toml", std::move(set), "", "", ""}, folder);
     }
