@@ -34,7 +34,7 @@ void take_largest(std::vector<float>& of, std::size_t first, std::size_t step, i
 struct WhiteLight {
     std::vector<float> here, nearby;
     explicit WhiteLight(const View& view) : here(view.white.rgb.size() / 3) {
-        const int width = view.white.width, height = view.white.height, within = view.elements_a_lens;
+        const int width = view.white.width, height = view.white.height, within = view.elements_per_lens;
         for (std::size_t p = 0; p < here.size(); ++p) here[p] = mean_of(view.white, p);
         nearby = here;
         for (int y = 0; y < height; ++y) take_largest(nearby, std::size_t(y) * std::size_t(width), 1, width, within);
@@ -96,12 +96,12 @@ std::optional<std::vector<View>> views_of(const Request& request, const Display&
         const Display seen = display_of(request, display, geometry, eye, rays);
         const Geometry there = resolve(seen);
         Image content = eye.picture ? *eye.picture : request.content_of(seen, there, samples, quiet);
-        Display many = seen;
-        many.render.samples = white_points;
+        Display white_view = seen;
+        white_view.render.samples = white_points;
         RenderOptions options;
         options.threads = request.threads;  // which eyes and tiles share
         options.device = "cpu";
-        Rendering bright = render(many, there, white, options, quiet);
+        Rendering bright = render(white_view, there, white, options, quiet);
         if (request.job.cancelled()) return;
         made[k] =
             View{ViewRows(seen, there), eye.weight, std::move(content), std::move(bright.image), elements_across_lens(seen, there)};

@@ -19,7 +19,7 @@ struct View {
     float weight;                      // of its errors
     Image content;                     // what it should see, in the content's own light
     Image white;                       // what it sees of a white panel
-    int elements_a_lens = 1;           // across a lens pitch
+    int elements_per_lens = 1;         // across a lens pitch
     std::vector<float> expected = {};  // of each element the share of the gain that it can show: 1, less where it lies partly
                                        // between lenses or beside the array; 0: it does not count
 };

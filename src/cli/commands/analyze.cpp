@@ -119,7 +119,7 @@ struct Analysis {
             if (resume && folder.has(*m)) continue;
             left.push_back(m);
             steps += m->steps(subject);
-            if (subject.display().content.pickup == PickupKind::inverse && std::string_view(m->name) == "dof")
+            if (subject.display().content.pickup == PickupKind::inverse && m->name == "dof")
                 spdlog::warn("dof: the inverse pick-up is fitted once for each depth; each fit takes as long as lfdsim eia does");
         }
         Progress progress(progress_style);

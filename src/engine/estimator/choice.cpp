@@ -40,16 +40,21 @@ std::vector<Rect> places_in(const Rect& region, int an_axis) {
 
 std::size_t colours_of(const Rect& r) { return std::size_t(r.x1 - r.x0) * std::size_t(r.y1 - r.y0) * 3; }
 
+/// Makes a tile that of a place, whose pixels it writes one after the other.
+void move_to(Tile& tile, const Rect& place) {
+    tile.crop_x = tile.x0 = place.x0;
+    tile.crop_y = tile.y0 = place.y0;
+    tile.x1 = place.x1;
+    tile.y1 = place.y1;
+    tile.crop_width = place.x1 - place.x0;
+}
+
 /// The light of places, one after the other.
 std::vector<float> light_at(Kernel kernel, Tile tile, const std::vector<Rect>& places) {
     std::vector<float> light;
     for (const Rect& at : places) {
         light.resize(light.size() + colours_of(at));
-        tile.crop_x = tile.x0 = at.x0;
-        tile.crop_y = tile.y0 = at.y0;
-        tile.x1 = at.x1;
-        tile.y1 = at.y1;
-        tile.crop_width = at.x1 - at.x0;
+        move_to(tile, at);
         tile.out = light.data() + light.size() - colours_of(at);
         kernel(tile);
     }
@@ -62,11 +67,7 @@ std::vector<float> white_at(Kernel kernel, Tile tile, const std::vector<Rect>& p
     std::vector<PanelRay> rays(std::size_t(Limits::place_side * Limits::place_side) * tile.samples);
     std::vector<float> light;
     for (const Rect& at : places) {
-        tile.crop_x = tile.x0 = at.x0;
-        tile.crop_y = tile.y0 = at.y0;
-        tile.x1 = at.x1;
-        tile.y1 = at.y1;
-        tile.crop_width = at.x1 - at.x0;
+        move_to(tile, at);
         tile.rays = rays.data();
         kernel(tile);
         for (std::size_t pixel = 0; pixel < colours_of(at) / 3; ++pixel) {
@@ -182,8 +183,9 @@ EstimatorChoice::PixelColours EstimatorChoice::points_at(Kernel kernel, const st
     return of_white ? white_at(kernel, tile, places, !tile.display->emission.whole) : light_at(kernel, tile, places);
 }
 
-// Dark parts of the content do not count: its root mean square. Dark parts of the display do: its mean over its root mean square,
-// of a white panel.
+// The frame's light is the root mean square of the content's picture, so that a dark background does not count, times the mean of a
+// white panel's picture over its root mean square: where the display sends its light into few pixels, errors are judged by the
+// mean.
 void EstimatorChoice::look(Kernel kernel) {
     const std::vector<Rect> places = places_in({0, 0, points_.view.width, points_.view.height}, Limits::frame_places_an_axis);
     struct FrameLight {
