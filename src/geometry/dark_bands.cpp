@@ -1,15 +1,17 @@
 #include "geometry/dark_bands.h"
 
+#include "base/constants.h"
+#include "base/sinc.h"
+#include "geometry/diffuser_profile.h"
+#include "geometry/prescription.h"
+#include "geometry/resolve.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
-
-#include "base/constants.h"
-#include "geometry/prescription.h"
-#include "geometry/resolve.h"
 
 namespace lfdsim {
 namespace {
@@ -32,13 +34,10 @@ std::vector<double> lit_waves(double pitch, double other_pitch, const Pupil& pup
     return amplitudes;
 }
 
-double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(x) / x; }
-
 /// The diffuser's transfer factor along one of its axes for a wave of light of `frequency` periods per mm at the lenses.
 double spread_transform(const Diffuser& diffuser, int axis, double height_mm, double frequency) {
-    const double width = 2 * height_mm * std::tan(diffuser.angle_deg[std::size_t(axis)] * degree / 2), x = pi * frequency * width;
-    if (diffuser.profile == Profile::gaussian) return std::exp(-x * x / (4 * std::numbers::ln2));
-    return sinc(x);
+    const double width = 2 * height_mm * std::tan(diffuser.angle_deg[std::size_t(axis)] * degree / 2);
+    return figures_of(diffuser.profile).transfer(frequency * width);
 }
 
 /// The diffuser's transfer factor for a wave over the array's own x and y, periods per mm.
@@ -94,7 +93,7 @@ class StaggeredLight {
         for (int m = 0; m <= most_m; m += 2) waves[std::size_t(m)] = (m == 0 ? 1 : 2) * amplitude(m, chords(0)) * spread(m / px, 0);
         for (int n = 1; n <= most_n; n += 2) {  // waves of an even order along y vanish in the mean over a row
             const std::vector<double> of_n = chords(n);
-            const double mean = sinc(0.5 * pi * n), up = 0.5 * n / py;
+            const double mean = sinc(0.5 * n), up = 0.5 * n / py;
             for (int m = 1; m <= most_m; m += 2)
                 waves[std::size_t(m)] += 2 * amplitude(m, of_n) * mean * (spread(m / px, up) + spread(m / px, -up));
         }
@@ -113,8 +112,8 @@ class StaggeredLight {
     /// The integral of cos(2 pi n y / 2py) over the lit chord at each place across, in units of py.
     std::vector<double> chords(int n) const {
         std::vector<double> all(places);
-        const double wave = pi * n / lattice_.pitch[1];
-        for (std::size_t k = 0; k < places; ++k) all[k] = 2 * lit_half_[k] * sinc(wave * lit_half_[k]) / lattice_.pitch[1];
+        const double pitch = lattice_.pitch[1];
+        for (std::size_t k = 0; k < places; ++k) all[k] = 2 * lit_half_[k] * sinc(n * lit_half_[k] / pitch) / pitch;
         return all;
     }
     /// The amplitude of the wave cos(2 pi m x / px), x from a joint.
@@ -134,7 +133,7 @@ double michelson_of(const std::vector<double>& waves) {
     for (int b = 0; b < bins; ++b) {
         double light = 0;
         for (std::size_t k = 0; k < harmonics; ++k)
-            light += waves[k] * sinc(pi * double(k) / bins) * std::cos(2 * pi * double(k) * (b + 0.5) / bins);
+            light += waves[k] * sinc(double(k) / bins) * std::cos(2 * pi * double(k) * (b + 0.5) / bins);
         least = std::min(least, std::max(light, 0.));
         greatest = std::max(greatest, light);
     }

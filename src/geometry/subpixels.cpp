@@ -1,4 +1,5 @@
 #include "geometry/subpixels.h"
+#include "base/sinc.h"
 
 #include <algorithm>
 #include <cmath>
@@ -227,7 +228,6 @@ double WhitePanel::at(double column, double row) const {
 }
 
 std::complex<double> WhitePanel::harmonic(int k, int l) const {
-    const auto sinc = [](double x) { return x == 0 ? 1 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x); };
     const std::array<int, 2> orders{k, l};
     std::complex<double> sum = 0;
     for (const LitPart& part : parts_) {

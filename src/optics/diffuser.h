@@ -6,12 +6,18 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Returns the scattering angle, radians, for a number uniform in [-1, 1]: u omega/2 for a box, sigma sqrt(2) erfinv(u erf(89
-/// degrees/(sigma sqrt 2))) for a normal distribution cut at +-89 degrees (docs/model.md, "Diffuser"). `box` promises the first.
+/// Returns the scattering angle for u uniform in [-1, 1], in units of `scale`: u for a box, erfinv(u tail) for a normal
+/// distribution of which `scale` is sigma sqrt(2) and `tail` the share of the light that it keeps (docs/model.md, "Diffuser").
+template <class F>
+LFDSIM_FN F scattering_angle(Profile profile, F scale, F u, F tail) {
+    return scale * (profile == Profile::box ? u : erfinv(u * tail));
+}
+
+/// Returns the scattering angle, radians, for a number uniform in [-1, 1]. `box` promises a box.
 template <bool box = false, class F>
 LFDSIM_FN F diffuser_angle(const TracedDisplay<Scalar<F>>& display, int axis, F uniform) {
-    if (box || display.diffuser_profile == Profile::box) return uniform * F(display.half_angle[axis]);
-    return F(display.half_angle[axis]) * erfinv(uniform * F(display.gaussian_tail[axis]));
+    return scattering_angle(box ? Profile::box : display.diffuser_profile, F(display.angle_scale[axis]), uniform,
+                            F(display.within_horizon[axis]));
 }
 
 /// Returns the tangent of diffuser_angle().
@@ -26,7 +32,7 @@ LFDSIM_FN F diffuser_tangent(const TracedDisplay<Scalar<F>>& display, int axis, 
 /// turn a ray that far.
 template <class F>
 LFDSIM_FN F diffuser_uniform(const TracedDisplay<Scalar<F>>& display, int axis, F tangent) {
-    return atan(tangent) / F(display.half_angle[axis]);
+    return atan(tangent) / F(display.angle_scale[axis]);
 }
 
 /// t = Rx(b) Ry(a) i: about y first (spreads horizontally), then about x; right-handed. Keeps the unit length.

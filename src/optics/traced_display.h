@@ -131,9 +131,9 @@ struct TracedDisplay {
     Fresnel fresnel;
     bool has_diffuser;
     Profile diffuser_profile;
-    S half_angle[2];     // box: omega/2 about y and about x, radians; gaussian: see diffuser.h
-    S gaussian_tail[2];  // gaussian: erf of the cut
-    bool small_angles;   // box: both half angles below 0.05 rad
+    S angle_scale[2];     // about y and about x, radians: see diffuser.h
+    S within_horizon[2];  // the share of a normal distribution that is turned by less than 89 degrees
+    bool small_angles;    // box: both half angles below 0.05 rad
 
     // camera samples
     bool box_filter, thin_lens;

@@ -1,7 +1,7 @@
 #include "analysis/core/channel_pixels.h"
 
-#include "analysis/resolution/fourier.h"
 #include "base/constants.h"
+#include "base/sinc.h"
 #include "content/pickup/shown_points.h"
 
 #include <algorithm>

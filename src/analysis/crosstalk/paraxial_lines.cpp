@@ -1,12 +1,13 @@
 #include "analysis/crosstalk/paraxial_lines.h"
 
 #include "base/constants.h"
+#include "geometry/diffuser_profile.h"
 #include "geometry/layers.h"
+#include "optics/diffuser.h"
 #include "simd/elementary.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lfdsim {
 
@@ -17,8 +18,9 @@ ParaxialLines::ParaxialLines(const Display& d, const Geometry& g, const Vec3d& e
 }
 
 double ParaxialLines::angle(double number, std::size_t axis) const {
-    const double full = display_.diffuser->angle_deg[axis] * degree, sigma = full / (2 * std::sqrt(2 * std::numbers::ln2));
-    return display_.diffuser->profile == Profile::box ? 0.5 * full * number : sigma * std::numbers::sqrt2 * optics::erfinv(number);
+    const Diffuser& diffuser = *display_.diffuser;
+    const double scale = figures_of(diffuser.profile).scale * diffuser.angle_deg[axis] * degree;
+    return optics::scattering_angle(diffuser.profile, scale, number, 1.);
 }
 
 std::optional<ParaxialLines::LineSlopes> ParaxialLines::slopes(double x, double y, double a, double b) const {

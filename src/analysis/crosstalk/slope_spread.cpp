@@ -1,11 +1,11 @@
 #include "analysis/crosstalk/slope_spread.h"
 #include "base/constants.h"
+#include "geometry/diffuser_profile.h"
 #include "geometry/screen.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -15,7 +15,9 @@ namespace {
 constexpr int places_across = 64;  // of the array, for which light is summed
 constexpr double most_rad = 1.55;  // from the normal
 
-double even_below(double x, double width) { return width > 0 ? std::clamp(x / width + 0.5, 0., 1.) : x < 0 ? 0 : x > 0 ? 1 : 0.5; }
+double even_below(double x, double width) {
+    return width > 0 ? figures_of(Profile::box).below(x / width) : x < 0 ? 0 : x > 0 ? 1 : 0.5;
+}
 
 }  // namespace
 
@@ -28,7 +30,7 @@ SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
       half_rad_(0),
       above_mm_(0),
       diffuser_scale_(1),
-      box_(true) {
+      profile_(&figures_of(Profile::box)) {
     const Geometry& g = s.geometry();
     const double made_for = s.display().content.viewing_distance_mm - g.rear_principal_mm;
     lens_slopes_per_mm_ = 1 / made_for - 1 / eye;
@@ -39,7 +41,7 @@ SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
     const auto& diffuser = s.display().diffuser;
     if (!diffuser) return;
     half_rad_ = std::min(diffuser->angle_deg[std::size_t(axis)] * degree / 2, most_rad);
-    box_ = diffuser->profile == Profile::box;
+    profile_ = &figures_of(diffuser->profile);
     above_mm_ = diffuser->distance_mm;
     diffuser_scale_ = 1 - (*g.diffuser_z_mm - g.rear_principal_mm) / made_for;
 }
@@ -60,14 +62,11 @@ SlopeSpread::Spread SlopeSpread::lenses() const {
 }
 
 /// Share of the light that the diffuser turns by less than an angle.
-double SlopeSpread::turned_less(double angle) const {
-    if (box_) return even_below(angle, 2 * half_rad_);
-    return 0.5 * (1 + std::erf(angle / half_rad_ * std::sqrt(std::numbers::ln2)));
-}
+double SlopeSpread::turned_less(double angle) const { return profile_->below(angle / (2 * half_rad_)); }
 
 SlopeSpread::Spread SlopeSpread::diffuser(double x_mm, double aimed_mm) const {
     if (half_rad_ <= 0) return {0, 0, [](double x) { return x < 0 ? 0. : x > 0 ? 1. : 0.5; }};
-    const double slope = (aimed_mm - x_mm) / eye_mm_, tilt = std::atan(slope), reach = (box_ ? 1 : 4) * half_rad_;
+    const double slope = (aimed_mm - x_mm) / eye_mm_, tilt = std::atan(slope), reach = 2 * profile_->reach * half_rad_;
     const auto turned_slope = [&](double angle) { return std::tan(std::clamp(tilt + angle, -most_rad, most_rad)) - slope; };
     const double left = (-0.5 * array_mm_ - aimed_mm) / above_mm_, right = (0.5 * array_mm_ - aimed_mm) / above_mm_;
     const double least = std::max(turned_slope(-reach), left), most = std::min(turned_slope(reach), right);

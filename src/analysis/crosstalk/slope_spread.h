@@ -2,6 +2,7 @@
 #pragma once
 #include "analysis/core/subject.h"
 #include "analysis/spots/aperture_wave.h"
+#include "geometry/diffuser_profile.h"
 
 #include <array>
 #include <functional>
@@ -42,7 +43,7 @@ class SlopeSpread {
     std::size_t axis_;
     double aperture_slopes_, lens_slopes_per_mm_;
     double half_rad_, above_mm_, diffuser_scale_;  // half the diffuser's angle; its height above the vertex plane; 1 - d/M
-    bool box_;
+    const ProfileFigures* profile_;                // the diffuser's
 };
 
 }  // namespace lfdsim

@@ -2,6 +2,7 @@
 
 #include "analysis/resolution/fourier.h"
 #include "base/constants.h"
+#include "base/sinc.h"
 
 #include <algorithm>
 #include <cmath>

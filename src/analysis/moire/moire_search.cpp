@@ -2,6 +2,7 @@
 #include "analysis/moire/moire.h"
 #include "analysis/resolution/fourier.h"
 #include "base/constants.h"
+#include "base/sinc.h"
 
 #include <algorithm>
 #include <cmath>

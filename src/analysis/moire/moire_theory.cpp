@@ -1,14 +1,13 @@
 #include "analysis/moire/moire_theory.h"
 
 #include "analysis/moire/eye_filter.h"
-#include "analysis/resolution/fourier.h"
 #include "analysis/spots/aperture_wave.h"
 #include "base/constants.h"
+#include "geometry/diffuser_profile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 namespace lfdsim {
@@ -90,9 +89,8 @@ double MoireTheory::diffuser(WaveVector nu) const {
     const Frequency along = to_display(nu);
     double mean = 1;
     for (std::size_t k = 0; k < 2; ++k) {
-        const double full = display_.diffuser->angle_deg[k] * degree, sigma = full / (2 * std::sqrt(2 * std::numbers::ln2));
-        mean *= display_.diffuser->profile == Profile::box ? sinc(full * along[k])
-                                                           : std::exp(-2 * pi * pi * sigma * sigma * along[k] * along[k]);
+        const double angle = display_.diffuser->angle_deg[k] * degree;
+        mean *= figures_of(display_.diffuser->profile).transfer(angle * along[k]);
     }
     return mean;
 }

@@ -1,7 +1,7 @@
 #include "analysis/moire/wave_sums.h"
 
-#include "analysis/resolution/fourier.h"
 #include "base/constants.h"
+#include "base/sinc.h"
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "analysis/moire/white_lines.h"
 
 #include "analysis/resolution/fourier.h"
+#include "base/constants.h"
 #include "display/colour.h"
 
 #include <algorithm>

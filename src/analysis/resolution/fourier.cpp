@@ -1,5 +1,7 @@
 #include "analysis/resolution/fourier.h"
 
+#include "base/constants.h"
+
 #include <cstddef>
 #include <utility>
 

@@ -2,16 +2,14 @@
 
 #include "analysis/crosstalk/paraxial_lines.h"
 #include "analysis/crosstalk/slope_spread.h"
-#include "analysis/resolution/fourier.h"
 #include "base/constants.h"
+#include "base/sinc.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace lfdsim {
 namespace {
-
-const double fwhm_per_sigma = 2 * std::sqrt(2 * std::log(2.));
 
 /// The share of slanted strips' light beside their own images: the sum over lines of sight of paraxial theory, across the strips.
 /// One closed form of SlopeSpread's kind does not do: a diffuser's and a pixel's widths along x and y both count across.
@@ -61,7 +59,7 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
            defocus,
            d.array.turn_deg() * degree,
            {0, 0},
-           false};
+           &figures_of(Profile::box)};
     if (!d.diffuser) return b;
     const double away = std::abs(z_mm - *g.diffuser_z_mm), angle = angle_deg * degree;
     const auto half = [&](std::size_t axis) { return 0.5 * d.diffuser->angle_deg[axis] * degree; };
@@ -69,7 +67,7 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
     // an angle near it serves as well.
     const auto slope = [](double a) { return std::tan(std::clamp(a, -1.5, 1.5)); };
     b.diffuser_mm = {away * (slope(angle + half(0)) - slope(angle - half(0))), away * 2 * slope(half(1))};
-    b.gaussian = d.diffuser->profile == Profile::gaussian;
+    b.profile = &figures_of(d.diffuser->profile);
     return b;
 }
 
@@ -85,11 +83,7 @@ double light_astray(const Subject& s, double angle_deg, double distance_mm) {
 std::complex<double> Blur::wave(std::complex<double> pixel, double f, const Direction& direction) const {
     const double c = std::cos(array_rad), s = std::sin(array_rad), x = f * direction.x, y = f * direction.y;
     const double spot = aperture.mean(defocus * (c * x + s * y), defocus * (c * y - s * x));
-    const auto spread = [&](double waves) {
-        const double sigma = pi / fwhm_per_sigma;
-        return gaussian ? std::exp(-2 * sigma * sigma * waves * waves) : sinc(waves);
-    };
-    return pixel * spot * spread(x * diffuser_mm[0]) * spread(y * diffuser_mm[1]);
+    return pixel * spot * profile->transfer(x * diffuser_mm[0]) * profile->transfer(y * diffuser_mm[1]);
 }
 
 double Blur::mtf(double f, const Direction& direction) const {
@@ -139,9 +133,8 @@ double ChannelBlur::middle_mm(const Direction& direction) const {
 }
 
 double Blur::width_mm(const Direction& direction) const {
-    // A gaussian's tails reach two half widths farther.
     return pixel_mm + defocus * aperture.width_mm[std::size_t(direction.axis)] +
-           (gaussian ? 2 : 1) * (std::abs(direction.x) * diffuser_mm[0] + std::abs(direction.y) * diffuser_mm[1]);
+           profile->width * (std::abs(direction.x) * diffuser_mm[0] + std::abs(direction.y) * diffuser_mm[1]);
 }
 
 }  // namespace lfdsim

@@ -4,6 +4,7 @@
 #include "analysis/core/subject.h"
 #include "analysis/resolution/edge_view.h"
 #include "analysis/spots/aperture_wave.h"
+#include "geometry/diffuser_profile.h"
 
 #include <array>
 #include <cmath>
@@ -31,7 +32,7 @@ struct Blur {
     double defocus;                     // ... times this, |1 - z/L|
     double array_rad;                   // the turn of the aperture's axes
     std::array<double, 2> diffuser_mm;  // along x and y: full widths, at half maximum if gaussian
-    bool gaussian;
+    const ProfileFigures* profile;      // the diffuser's
 
     /// Modulation at a frequency per mm, 0 or more, along a direction.
     double mtf(double per_mm, const Direction&) const;

@@ -1,6 +1,7 @@
 #include "analysis/resolution/slanted_edge.h"
 
 #include "base/constants.h"
+#include "base/sinc.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "analysis/spots/aperture_wave.h"
 
-#include "analysis/resolution/fourier.h"
 #include "base/constants.h"
+#include "base/sinc.h"
 #include "geometry/lattice.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "analysis/spots/ray_fan.h"
 
 #include "base/constants.h"
+#include "geometry/diffuser_profile.h"
 
 #include <algorithm>
 #include <array>
@@ -102,7 +103,7 @@ double diffuser_angle(const Display& d, Point along) {
     const double turn = d.array.turn_deg() * degree, c = std::cos(turn), s = std::sin(turn);
     const double x = std::abs(c * along[0] - s * along[1]) * d.diffuser->angle_deg[0] * degree / 2,
                  y = std::abs(s * along[0] + c * along[1]) * d.diffuser->angle_deg[1] * degree / 2;
-    return d.diffuser->profile == Profile::box ? x + y : std::hypot(x, y);  // a rectangle's reach; a normal distribution's width
+    return figures_of(d.diffuser->profile).rectangular ? x + y : std::hypot(x, y);
 }
 
 std::vector<FanRay> diffused(const std::vector<FanRay>& lines, double z, double angle) {

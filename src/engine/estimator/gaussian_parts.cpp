@@ -2,7 +2,7 @@
 
 #include "engine/devices/kernel.h"
 #include "engine/scene/traced_display.h"
-#include "geometry/gaussian_boxes.h"
+#include "geometry/diffuser_profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ std::vector<EvenPart> even_parts(const Display& display) {
     if (!(wanted <= max_strata - more_strata)) return {{display, 1}};  // which will be refused
     const int boxes = std::min(int(std::ceil(std::sqrt(wanted))), many_boxes), each = int(std::ceil(wanted / boxes));
     std::vector<EvenPart> parts;
-    for (const DiffuserBox& box : boxes_of_bell(*display.diffuser, boxes)) {
+    for (const DiffuserBox& box : boxes_of_normal_distribution(*display.diffuser, boxes)) {
         const auto number = std::uint64_t(parts.size());
         parts.push_back({display, float(box.weight)});
         Display& part = parts.back().display;

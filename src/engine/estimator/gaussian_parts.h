@@ -12,7 +12,7 @@ struct EvenPart {
 };
 
 /// The filtered estimator's blocks take light to be spread evenly over the diffuser's angles, and a bell would have no end: of a
-/// bell these are displays with box diffusers (geometry/gaussian_boxes.h), the more and the finer rendered the more samples are
+/// bell these are displays with box diffusers (geometry/diffuser_profile.h), the more and the finer rendered the more samples are
 /// wanted; of any other display, and for point samples, the display itself. Weights sum to 1.
 std::vector<EvenPart> even_parts(const Display&);
 

@@ -68,7 +68,7 @@ LFDSIM_FN bool turns_independent(const TracedDisplay<S>& display, const PixelBlo
     S tangent[2];
     for (int a = 0; a < 2; ++a) {
         S sine, cosine;
-        sincos(display.half_angle[a], display.small_angles, sine, cosine);
+        sincos(display.angle_scale[a], display.small_angles, sine, cosine);
         tangent[a] = sine / cosine;
     }
     for (int corner = 0; corner < 4; ++corner) {

@@ -8,13 +8,13 @@
 
 #include "engine/devices/kernel.h"
 #include "engine/scene/misalignment.h"
+#include "geometry/diffuser_profile.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/prescription.h"
 #include "geometry/subpixels.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 namespace lfdsim {
@@ -208,15 +208,10 @@ StoredDisplay<S> make_traced_display(const Display& display, const Geometry& geo
         scene.start_above = S(*geometry.diffuser_z_mm - first);
         scene.small_angles = scene.diffuser_profile == Profile::box;
         for (int axis = 0; axis < 2; ++axis) {
-            const double angle = display.diffuser->angle_deg[axis] * degree;
-            if (scene.diffuser_profile == Profile::box) {
-                scene.half_angle[axis] = S(angle / 2);
-                scene.small_angles = scene.small_angles && angle / 2 <= 0.05;
-            } else {  // sigma sqrt 2 of a normal distribution with this full width at half maximum
-                const double scale = angle / (2 * std::sqrt(std::numbers::ln2));
-                scene.half_angle[axis] = S(scale);
-                scene.gaussian_tail[axis] = S(scale > 0 ? std::erf(89 * degree / scale) : 1);
-            }
+            const double scale = figures_of(scene.diffuser_profile).scale * display.diffuser->angle_deg[axis] * degree;
+            scene.angle_scale[axis] = S(scale);
+            scene.within_horizon[axis] = S(scale > 0 ? std::erf(89 * degree / scale) : 1);
+            scene.small_angles = scene.small_angles && scale <= 0.05;
         }
     }
     add_holes(scene, display, geometry, geometry.diffuser_z_mm.value_or(first));
@@ -288,7 +283,7 @@ double pixel_on_diffuser(const optics::RayOrigin& view) {
 
 /// The width that a diffused ray spans along an axis in the plane of the holes; mm.
 double diffused_span(const optics::TracedDisplay<float>& scene, int axis) {
-    return 2 * double(scene.holes_below[axis]) * std::tan(std::min(double(scene.half_angle[axis]), 1.5));
+    return 2 * double(scene.holes_below[axis]) * std::tan(std::min(double(scene.angle_scale[axis]), 1.5));
 }
 
 }  // namespace

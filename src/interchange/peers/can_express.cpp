@@ -33,7 +33,7 @@ class Refusals {
         if (d_.camera.pupil_diameter_mm.value_or(0) > 0)
             add("camera.pupil_diameter_mm", "the scene's camera is a pinhole; add --set camera.pupil_diameter_mm=none");
         if (peer_ == Peer::pov) pov();
-        if (peer_ == Peer::cycles && d_.diffuser && d_.diffuser->profile == Profile::gaussian)
+        if (peer_ == Peer::cycles && d_.diffuser && d_.diffuser->profile != Profile::box)
             add("diffuser.profile", "Cycles' nodes can only draw box angles; add --set 'diffuser.profile=\"box\"'");
         triangles();
         return std::move(problems_);
