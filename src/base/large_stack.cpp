@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <sys/resource.h>
 #include <csignal>
+#include <exception>
 #include <stdexcept>
 
 namespace lfdsim {
@@ -16,6 +17,7 @@ constexpr std::size_t own_bytes = 4 << 20;
 struct StackWork {
     const std::function<int()>& run;
     int result = 0;
+    std::exception_ptr thrown = nullptr;
 };
 
 }  // namespace
@@ -31,7 +33,11 @@ int on_enough_stack(const std::function<int()>& work) {
     pthread_t thread{};
     const auto start = [](void* to) -> void* {
         StackWork& w = *static_cast<StackWork*>(to);
-        w.result = w.run();
+        try {
+            w.result = w.run();
+        } catch (...) {
+            w.thrown = std::current_exception();
+        }
         return nullptr;
     };
     const int error = pthread_create(&thread, &attributes, start, &all);
@@ -46,6 +52,7 @@ int on_enough_stack(const std::function<int()>& work) {
     sigfillset(&every);
     pthread_sigmask(SIG_BLOCK, &every, nullptr);
     pthread_join(thread, nullptr);
+    if (all.thrown) std::rethrow_exception(all.thrown);
     return all.result;
 }
 

@@ -35,6 +35,34 @@ char small(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 
 }  // namespace
 
+std::string_view key_of(Formula formula) {
+    switch (formula) {
+        case Formula::unknown:
+            return "";
+        case Formula::nd_vd:
+            return "nd";
+        case Formula::cauchy:
+            return "cauchy";
+        case Formula::conrady:
+            return "conrady";
+        case Formula::herzberger:
+            return "herzberger";
+        case Formula::sellmeier:
+            return "sellmeier";
+        case Formula::resonances:
+            return "resonances";
+        case Formula::sellmeier_2:
+            return "sellmeier_2";
+        case Formula::handbook_1:
+            return "handbook_1";
+        case Formula::handbook_2:
+            return "handbook_2";
+        case Formula::power_series:
+            return "power_series";
+    }
+    return "";
+}
+
 bool takes(Formula formula, std::size_t count) {
     switch (formula) {
         case Formula::unknown:

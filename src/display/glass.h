@@ -34,6 +34,9 @@ struct Glass {
     bool operator==(const Glass&) const = default;
 };
 
+/// Returns the formula's key in descriptions, JSON and Python, "sellmeier"; "nd" for nd_vd, which has two; empty for unknown.
+std::string_view key_of(Formula);
+
 /// Whether a formula takes so many coefficients.
 bool takes(Formula, std::size_t coefficients);
 

@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 namespace lfdsim {
@@ -181,12 +182,15 @@ class Sum {
         }
         const std::size_t first = channel.value_or(0), step = channel ? 3 : 1;
         sum_.points_share = std::max(sum_.points_share, one.points_share);
-        if (one.measured_error)  // independent ones, each of a third of the numbers or of all
-            sum_.measured_error =
-                std::hypot(sum_.measured_error.value_or(0), weight * *one.measured_error / std::sqrt(double(step)));
         for (std::size_t k = first; k < sum_.image.rgb.size(); k += step) sum_.image.rgb[k] += weight * one.image.rgb[k];
         for (std::size_t k = first; k < sum_.error.rgb.size(); k += step)
-            sum_.error.rgb[k] = std::hypot(sum_.error.rgb[k], weight * one.error.rgb[k]);
+            sum_.error.rgb[k] = sum_of_errors(sum_.error.rgb[k], weight * one.error.rgb[k], channel);
+        if (one.measured_error) {
+            for (std::size_t c = first; c < 3; c += step)
+                measured_[c] = sum_of_errors(measured_[c], weight * *one.measured_error, channel);
+            sum_.measured_error =
+                std::sqrt((measured_[0] * measured_[0] + measured_[1] * measured_[1] + measured_[2] * measured_[2]) / 3);
+        }
         sum_.complete = sum_.complete && one.complete;
         sum_.samples += one.samples;
         sum_.seconds += one.seconds;
@@ -203,7 +207,15 @@ class Sum {
     }
 
   private:
+    /// The wavelengths of a channel have the same random numbers, so that their errors add up. Other pictures have numbers of
+    /// their own: their errors' squares do.
+    template <class Number>
+    static Number sum_of_errors(Number a, Number b, std::optional<std::size_t> channel) {
+        return channel ? a + b : std::hypot(a, b);
+    }
+
     Rendering sum_;
+    std::array<double, 3> measured_{};  // error of each channel
 };
 
 Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& planes,

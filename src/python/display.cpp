@@ -75,7 +75,7 @@ nb::object object_of(const Glass& glass) {
         table["nd"] = glass.coefficients[0];
         table["vd"] = glass.coefficients[1];
     } else {
-        table[glass.formula == Formula::cauchy ? "cauchy" : "sellmeier"] = tuple_of(glass.coefficients);
+        table[key_of(glass.formula).data()] = tuple_of(glass.coefficients);
     }
     return table;
 }

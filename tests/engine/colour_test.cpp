@@ -71,6 +71,33 @@ TEST(Colour, WideChannelsAreSumsOverTheirWavelengths) {
     }
 }
 
+// Rays of all wavelengths of a channel take the same way but for refraction: their errors do not average out.
+TEST(Colour, TheErrorsOfWavelengthsAddUp) {
+    Display d = dispersing(example());
+    d.diffuser = Diffuser{40, {4, 4}, Profile::box};
+    d.panel.primary_widths_nm = Vec3d{10, 10, 10};
+    d.render.wavelength_samples = 5;
+    const Texels panel = noise_panel(d);
+    Job job;
+    RenderOptions options;
+    options.crop = Rect{40, 30, 88, 66};
+    Display points = d;
+    points.render.estimator = Estimator::point;
+    points.render.samples = 1 << 13;
+    points.render.seed = 99;
+    const Image truth = render(points, resolve(points), panel, options, job).image;
+    options.target_error = 0.02;
+    for (const Estimator estimator : {Estimator::point, Estimator::filtered}) {
+        d.render.estimator = estimator;
+        const Rendering r = render(d, resolve(d), panel, options, job);
+        double squares = 0;
+        for (const float e : r.error.rgb) squares += double(e) * e;
+        const double stated = std::sqrt(squares / double(r.error.rgb.size()));
+        EXPECT_LT(rmse(r.image, truth), 1.3 * stated) << word(estimator);
+        EXPECT_LT(stated, 0.02);
+    }
+}
+
 TEST(Colour, ATargetErrorHoldsInEachChannel) {
     Display d = dispersing(example());
     d.diffuser = Diffuser{40, {4, 4}, Profile::box};

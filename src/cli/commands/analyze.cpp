@@ -59,14 +59,14 @@ struct AnalyzeArguments {
     Option wavelength = command.option("--wavelength-nm", "W", "Wavelength for diffraction; default 550");
 };
 
-/// "-30,30,1": rising, both ends within low .. high, at most 10000 steps.
+/// "-30,30,1": rising, both ends within low .. high, at most 10001 values.
 std::vector<double> steps(const Option& option, double low, double high, const char* example) {
     if (option.empty()) return {};
     const std::vector<double> v = option.numbers(example);
     if (!(v[0] < v[1] && v[2] > 0 && (v[1] - v[0]) / v[2] <= 10000 && v[0] >= low && v[1] <= high))
         throw InputError(
             option.name(),
-            fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0, for at most 10000 values",
+            fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0, for at most 10001 values",
                         option.text(), low, high));
     std::vector<double> all;
     for (int k = 0; v[0] + k * v[2] <= v[1] + 1e-9 * v[2]; ++k) all.push_back(v[0] + k * v[2]);

@@ -16,23 +16,23 @@ std::string wrong_type(const toml::node& node, std::string_view wanted) {
     return fmt::format("is {}; give {}", kind_of(node), wanted);
 }
 
-/// A formula of a glass: its key in a table, and how many numbers it takes.
+/// A formula of a glass, and what it takes in words.
 struct GlassForm {
-    std::string_view key;
     Formula formula;
     std::string_view wanted;
+    std::string_view key() const { return key_of(formula); }
 };
 constexpr std::size_t most_coefficients = 64, longest_name = 64;
 constexpr GlassForm glass_forms[] = {
-    {"sellmeier", Formula::sellmeier, "pairs B, C, as a list of 6 numbers"},
-    {"cauchy", Formula::cauchy, "a list of 3 numbers"},
-    {"conrady", Formula::conrady, "a list of 3 numbers"},
-    {"herzberger", Formula::herzberger, "a list of 6 numbers"},
-    {"resonances", Formula::resonances, "a number and pairs B, C, as a list of 5 numbers"},
-    {"sellmeier_2", Formula::sellmeier_2, "a list of 5 numbers"},
-    {"handbook_1", Formula::handbook_1, "a list of 4 numbers"},
-    {"handbook_2", Formula::handbook_2, "a list of 4 numbers"},
-    {"power_series", Formula::power_series, "pairs of a coefficient and a power, as a list of 12 numbers"},
+    {Formula::sellmeier, "pairs B, C, as a list of 6 numbers"},
+    {Formula::cauchy, "a list of 3 numbers"},
+    {Formula::conrady, "a list of 3 numbers"},
+    {Formula::herzberger, "a list of 6 numbers"},
+    {Formula::resonances, "a number and pairs B, C, as a list of 5 numbers"},
+    {Formula::sellmeier_2, "a list of 5 numbers"},
+    {Formula::handbook_1, "a list of 4 numbers"},
+    {Formula::handbook_2, "a list of 4 numbers"},
+    {Formula::power_series, "pairs of a coefficient and a power, as a list of 12 numbers"},
 };
 
 }  // namespace
@@ -123,7 +123,7 @@ std::string read_value(const toml::node& node, Glass& glass) {
     std::size_t formulas = has("nd") || has("vd");
     for (const auto& entry : *table) {
         const std::string_view key = entry.first.str();
-        const auto of_key = [&](const GlassForm& form) { return form.key == key; };
+        const auto of_key = [&](const GlassForm& form) { return form.key() == key; };
         formulas += std::ranges::any_of(glass_forms, of_key);
         if (std::ranges::none_of(std::array{"nd", "vd", "name", "range_nm"}, [&](auto* k) { return key == k; }) &&
             std::ranges::none_of(glass_forms, of_key))
@@ -148,12 +148,12 @@ std::string read_value(const toml::node& node, Glass& glass) {
         fault = read("nd", glass.coefficients[0]);
         return fault.empty() ? read("vd", glass.coefficients[1]) : fault;
     }
-    const GlassForm& form = *std::ranges::find_if(glass_forms, [&](const GlassForm& f) { return has(f.key); });
+    const GlassForm& form = *std::ranges::find_if(glass_forms, [&](const GlassForm& f) { return has(f.key()); });
     glass.formula = form.formula;
-    fault = read(form.key.data(), glass.coefficients);
+    fault = read(form.key().data(), glass.coefficients);
     const std::size_t count = glass.coefficients.size();
     if (fault.empty() && (!takes(form.formula, count) || count > most_coefficients))
-        fault = fmt::format("{} has {}; give {}", form.key, counted(count, "element"), form.wanted);
+        fault = fmt::format("{} has {}; give {}", form.key(), counted(count, "element"), form.wanted);
     return fault;
 }
 
@@ -209,8 +209,7 @@ std::string toml_text(const Glass& glass) {
     if (glass.formula == Formula::nd_vd) {
         text += fmt::format("nd = {}, vd = {}", toml_text(c[0]), toml_text(c[1]));
     } else {
-        const auto& form = *std::ranges::find(glass_forms, glass.formula, &GlassForm::formula);
-        text += fmt::format("{} = {}", form.key, toml_text(c));
+        text += fmt::format("{} = {}", key_of(glass.formula), toml_text(c));
     }
     if (glass.range_nm != Glass().range_nm) text += fmt::format(", range_nm = {}", toml_text(glass.range_nm));
     return text + " }";

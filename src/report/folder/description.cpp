@@ -30,7 +30,7 @@ Json json_of(const Glass& glass) {
     const std::vector<double>& c = glass.coefficients;
     if (!glass.name.empty()) return glass.name;
     if (glass.formula == Formula::nd_vd) return {{"nd", c[0]}, {"vd", c[1]}};
-    return {{glass.formula == Formula::cauchy ? "cauchy" : "sellmeier", c}};
+    return {{std::string(key_of(glass.formula)), c}};
 }
 template <class T>
 Json json_of(const std::optional<T>& value) {
