@@ -1,4 +1,4 @@
-// The camera: for each pixel the ray through its centre, and how a sample's ray differs from it. Floor 1.
+// The camera (docs/model.md, "Camera"): for each pixel the ray through its centre, and how a sample's ray differs from it. Floor 1.
 //
 // The ray through the pixel's centre is followed in double precision to the first plane of the display (the diffuser, or the top of
 // the lens array). The tracer starts there, with coordinates relative to the axis of a lens near that point, so that single
@@ -15,15 +15,15 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// The rays through the centres of a packet of pixels, where they cross the first plane.
 template <class F>
 struct PixelRays {
-    F x, y;         // from the axis of the base lens, in the array's frame
-    Vec3<F> to;     // unit, in the display's frame
-    F per_length;   // 1 / length of (to scaled to the frame)
-    Mask<F> alive;  // looks towards the display
+    F x, y;         // mm from the axis of the base lens, in the array's frame
+    Vec3<F> to;     // unit direction, in the display's frame
+    F per_length;   // 1 / distance along the ray from the pinhole to the plane of the frame, 1/mm
+    Mask<F> alive;  // the rays that go down, towards the display
     Extent<Scalar<F>> extent;
     PanelBase<Scalar<F>> base;
 };
 
-/// A packet's pixels form a block of the frame, so that its rays reach panel pixels close to each other.
+/// A packet's pixels form a block of the frame, row by row, so that its rays reach panel pixels close to each other.
 template <class F>
 struct Block {
     static constexpr int lanes = LaneTraits<F>::width;
@@ -31,11 +31,13 @@ struct Block {
     static constexpr int height = lanes / width;
 };
 
-/// The largest block. Its pixels share their base lens, so that this does not depend on the width of the kernel's packets.
+/// The size of the largest block, pixels. Its pixels share their base lens on every kernel, so that positions, and with them bits,
+/// do not depend on the width of the kernel's packets.
 constexpr std::int32_t shared_width = 4, shared_height = 4;
 
-/// The ray through the point (column, row) of the frame, in pixels: its direction, not normalised, and where it crosses the
-/// first plane, in the array's frame. A ray that goes away from the display does not cross it; it gets some finite point.
+/// Computes the ray through the point (column, row) of the frame, in pixels: d, its direction in the display's frame, of the length
+/// from pinhole to frame, and (x, y), where it crosses the first plane, mm from the array's centre in the array's frame. A ray that
+/// goes away from the display does not cross it; it gets some finite point.
 LFDSIM_FN void follow_to_first_plane(const RayOrigin& view, double column, double row, double d[3], double& x, double& y) {
     const double sx = (column - 0.5 * view.width) * view.pixel_mm, sy = (0.5 * view.height - row) * view.pixel_mm;
     for (int a = 0; a < 3; ++a) d[a] = view.forward[a] * view.distance + view.right[a] * sx + view.up[a] * sy;
@@ -48,14 +50,15 @@ LFDSIM_FN void follow_to_first_plane(const RayOrigin& view, double column, doubl
     y = at.y;
 }
 
-/// The base lens of the rays near the point (column, row) of the frame, the origin of their coordinates: its axis in the
-/// array's frame, which cells around it hold a lens, and where its axis meets the panel.
+/// The lens whose axis is the origin of the coordinates of nearby rays.
 template <class S>
 struct BaseLens {
-    double x, y;
-    Extent<S> extent;
-    PanelBase<S> panel;
+    double x, y;         // its axis, mm from the array's centre, in the array's frame turned about z alone
+    Extent<S> extent;    // the cells around it that hold a lens
+    PanelBase<S> panel;  // where its axis meets the panel
 };
+/// Returns the base lens of the rays near the point (column, row) of the frame: one that exists, near where that ray crosses the
+/// first plane.
 template <class S>
 LFDSIM_FN BaseLens<S> base_lens(const RayOrigin& view, double column, double row) {
     double d[3], x0, y0;
@@ -65,11 +68,12 @@ LFDSIM_FN BaseLens<S> base_lens(const RayOrigin& view, double column, double row
     Vec2<double> axis = axis_in_array(view.lattice, Cell<double>{i, j});
     if (view.lattice.strips) axis.y = y0;  // any point of a strip's axis serves
     S raised = 0;
-    if (view.wedged) {
+    if (view.wedged) {  // the wedge turns the axis's point in the vertex plane about the array's middle: it is moved and raised
         const auto along = [&](int k) { return view.wedge[k][0] * axis.x + view.wedge[k][1] * axis.y; };
         raised = S(along(2));
         axis = {along(0), along(1)};
     }
+    // Panel pixels from the top left corner: u = (x + W/2)/a, v = (H/2 - y)/a
     const Vec2<double> at = in_display(view.lattice, axis);
     const double u = (at.x + 0.5 * view.panel_width) * view.pixels_per_mm,
                  v = (0.5 * view.panel_height - at.y) * view.pixels_per_mm;
@@ -80,7 +84,7 @@ LFDSIM_FN BaseLens<S> base_lens(const RayOrigin& view, double column, double row
             {to_int(whole_u), to_int(whole_v), S(u - whole_u), S(v - whole_v), raised}};
 }
 
-/// The rays of the block whose first pixel is (column, row), multiples of the block's size.
+/// Returns the rays of the block whose first pixel is (column, row), multiples of the block's size.
 template <class F>
 LFDSIM_FN PixelRays<F> pixel_rays(const RayOrigin& view, std::int32_t column, std::int32_t row) {
     using S = Scalar<F>;
@@ -103,7 +107,7 @@ LFDSIM_FN PixelRays<F> pixel_rays(const RayOrigin& view, std::int32_t column, st
     return {load<F>(x), load<F>(y), {load<F>(dx), load<F>(dy), z}, load<F>(per_length), z < F(S(-1e-9)), lens.extent, lens.panel};
 }
 
-/// A packet's pixels are given twice, for two samples at once.
+/// Returns a packet's rays twice, side by side, for two samples at once.
 template <class H>
 LFDSIM_FN PixelRays<LanePair<H>> twice(const PixelRays<H>& p) {
     return {{p.x, p.x},
@@ -115,7 +119,8 @@ LFDSIM_FN PixelRays<LanePair<H>> twice(const PixelRays<H>& p) {
             p.base};
 }
 
-/// A point of the unit disk for two numbers in [-1, 1], area preserved (Shirley and Chiu 1997).
+/// Maps two numbers in [-1, 1] to a point (x, y) of the unit disk, area preserved (Shirley and Chiu 1997): the radius is the one of
+/// larger size, r, and the angle pi/4 times the other over r, from the x axis if r is a, else from the y axis.
 template <class F>
 LFDSIM_FN void disk(F a, F b, F& x, F& y) {
     using S = Scalar<F>;
@@ -127,14 +132,17 @@ LFDSIM_FN void disk(F a, F b, F& x, F& y) {
     y = r * select(wide, sine, cosine);
 }
 
-/// The rays, in the first plane, of a sample moved from the pixel's centre by `jitter` (half pixels, right and up), with the
-/// pinhole moved by `lens` (half pupils). With the unit direction d through the centre, m = d_xy / d_z and H the height of the
-/// plane above the camera, a change e of direction moves the ray by H (e_xy - m e_z) / (d_z + e_z): no large numbers cancel.
+/// Returns the rays, in the first plane, of a sample moved from the pixel's centre by `jitter` (half pixels, right and up), with
+/// the pinhole moved by `lens` (radii of the pupil). With the unit direction d through the centre, m = d_xy / d_z and the height H
+/// of the plane less that of the camera, a change e of direction moves the ray by H (e_xy - m e_z) / (d_z + e_z): no large numbers
+/// cancel. A move o of the pinhole adds o_xy - o_z (d + e)_xy / (d_z + e_z).
 template <class F>
 LFDSIM_RARE Ray<F> displaced(const RayOrigin& view, const PixelRays<F>& pixels, F jitter_x, F jitter_y, F lens_x, F lens_y) {
     using S = Scalar<F>;
     const F h = F(S(view.start_z - view.position[2])), half = F(S(0.5 * view.pixel_mm)), pupil = F(S(view.pupil_radius));
     auto along = [&](F right, F up, int axis) { return right * F(S(view.right[axis])) + up * F(S(view.up[axis])); };
+    // A ray from the pupil's point o meets the one from its centre in the plane in focus. So its direction, of the length from
+    // pinhole to frame, differs by -o x (distance of the frame / distance of the focus).
     const F ox = pupil * lens_x, oy = pupil * lens_y;
     const F back = F(S(view.frame_per_focus));
     const F ex = jitter_x * half - ox * back, ey = jitter_y * half - oy * back;

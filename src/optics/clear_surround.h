@@ -32,13 +32,13 @@ template <class F>
 LFDSIM_FN F slack() {
     return F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 2e-6 : 1e-11));
 }
-/// Is a crossing at the path length t ahead? One slightly behind (mm) counts too: the ray starts on it, but for rounding.
+/// Returns whether a crossing at the path length t is ahead, or so little behind, mm, that the ray starts on it but for rounding.
 template <class F>
 LFDSIM_FN Mask<F> ahead(F t) {
     return t > F(Scalar<F>(sizeof(Scalar<F>) == 4 ? -1e-4 : -1e-9));
 }
 
-/// The root of a t^2 + 2 b t + c = 0 at which the left side rises (`rising`) or falls, without cancellation; `real`: it exists.
+/// Returns the root of a t^2 + 2 b t + c = 0 at which the left side rises (`rising`) or falls, free of cancellation, if `real`.
 template <class F>
 LFDSIM_FN F root(F a, F b, F c, bool rising, Mask<F>& real) {
     const F disc = b * b - a * c;
@@ -53,9 +53,9 @@ LFDSIM_FN F root(F a, F b, F c, bool rising, Mask<F>& real) {
     return select(far, w - b, -c) / select(far, a, b + w);
 }
 
-/// Path length to where a ray crosses a surface of revolution downwards (against +z) or upwards, if `valid`, and the unit
-/// normal there, towards +z; `at` is relative to the lens's axis and the vertex. Aspheres: the first change of sign of z - sag
-/// on the path through the cap's zone, in 32 steps, then bisected.
+/// Returns the path length to where a ray crosses a surface of revolution downwards (against +z) or upwards, if `valid`, and `up`,
+/// the unit normal there, towards +z; `at` is relative to the lens's axis and the vertex. Aspheres: the first change of sign of
+/// z - sag on the path through the cap's zone, in 32 steps, then bisected.
 template <class F, class Surface>
 LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up, Mask<F>& valid) {
     using S = Scalar<F>;
@@ -109,14 +109,14 @@ LFDSIM_FN F cross_surface(const Surface& surface, Vec3<F> at, Vec3<F> to, bool d
     return t;
 }
 
-/// A ray crosses a cylinder along y' where it crosses the section, seen along y'.
+/// Returns what cross_surface() does, of a surface extruded along y': in projection along y' a ray crosses its section.
 template <class F, class Surface>
 LFDSIM_FN F cross_cylinder(const Surface& surface, Vec3<F> at, Vec3<F> to, bool downwards, Vec3<F>& up, Mask<F>& valid) {
     const F per = F(1) / sqrt(to.x * to.x + to.z * to.z);
     return per * cross_surface(surface, {at.x, F(0), at.z}, {to.x * per, F(0), to.z * per}, downwards, up, valid);
 }
 
-/// The top or bottom face of the solid in one cell, crossed inwards or outwards.
+/// Offers `best` the crossing, inwards or outwards, of the top or bottom face of the solid in one cell.
 template <class F>
 LFDSIM_FN void cross_face(const TracedDisplay<Scalar<F>>& display, bool top, Vec3<F> at, Vec3<F> to, bool inwards, Cell<F> cell,
                           Mask<F> active, Crossing<F>& best) {
@@ -133,7 +133,7 @@ LFDSIM_FN void cross_face(const TracedDisplay<Scalar<F>>& display, bool top, Vec
     best.take(active && valid, t, {sense * up.x, sense * up.y, sense * up.z}, cell);
 }
 
-/// Is a point of a wall between the faces of its lens? caps_only: and outside the slab, above the upper or below the lower rim.
+/// Returns whether a point of a wall is between the faces of its lens; caps_only: and above the upper or below the lower rim.
 template <class F>
 LFDSIM_FN Mask<F> between_faces(const TracedDisplay<Scalar<F>>& display, Vec3<F> local, bool caps_only) {
     const auto &top = display.surface[0], &bottom = display.surface[display.surface_count - 1];
@@ -149,8 +149,8 @@ LFDSIM_FN Mask<F> between_faces(const TracedDisplay<Scalar<F>>& display, Vec3<F>
     return inside;
 }
 
-/// The walls of one cell: a round one, or planes. caps_only: the walls above and below a plate, at the array's border and where
-/// the cap of a neighbour in a staggered row is lower.
+/// Offers `best` the crossings of one cell's walls: a round one, or planes. caps_only: of the walls above and below a plate, at the
+/// array's border and where the cap of a neighbour in a staggered row is lower.
 template <class F>
 LFDSIM_FN void cross_walls(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Vec3<F> at, Vec3<F> to,
                            bool inwards, Cell<F> cell, Mask<F> active, bool caps_only, Crossing<F>& best) {
@@ -194,7 +194,7 @@ LFDSIM_FN void cross_walls(const TracedDisplay<Scalar<F>>& display, const Extent
     }
 }
 
-/// The path lengths at which a ray enters and leaves low <= z <= high.
+/// Computes the path lengths at which a ray enters and leaves low <= z <= high; `in` > `out` where it does not.
 template <class F>
 LFDSIM_FN void cross_slab(Vec3<F> at, Vec3<F> to, F low, F high, F& in, F& out) {
     const F huge = F(Scalar<F>(1e30)), a = (low - at.z) / to.z, b = (high - at.z) / to.z;
@@ -213,8 +213,8 @@ struct GlassRays {
     Mask<F> below;  // plate: outside on the panel's side
 };
 
-/// `clear`, separate solids: rays inside one are tested against its own faces and walls, others against those of cells on their
-/// path.
+/// Finds the next crossing in the surround `clear`, of separate solids: rays inside one are tested against its faces and walls,
+/// others against those of cells on their path.
 template <class F>
 LFDSIM_FN void next_in_clear(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
                              Mask<F> alive, Crossing<F>& best) {
@@ -234,7 +234,7 @@ LFDSIM_FN void next_in_clear(const TracedDisplay<Scalar<F>>& display, const Exte
                [&](Cell<F> cell, Mask<F> active) { return solid(cell, active, true) && active; });
 }
 
-/// `plate`, one sheet: the next crossing of its top or bottom face, on the flat between the caps or on a cap of the cells on
+/// Offers `best` the next crossing of the top or bottom face of a plate, on the flat between the caps or on a cap of the cells on
 /// the path through their zone.
 template <class F>
 LFDSIM_FN void next_on_face(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, bool top, bool inwards,
@@ -268,6 +268,7 @@ LFDSIM_FN void next_on_face(const TracedDisplay<Scalar<F>>& display, const Exten
                });
 }
 
+/// Finds the next crossing in the surround `plate`, one sheet. Rays outside are above or below it, and meet that face only.
 template <class F>
 LFDSIM_FN void next_in_plate(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const GlassRays<F>& rays,
                              Mask<F> alive, Crossing<F>& best) {
@@ -281,7 +282,7 @@ LFDSIM_FN void next_in_plate(const TracedDisplay<Scalar<F>>& display, const Exte
     if (any(below)) next_on_face(display, extent, false, true, rays, below, best);
 }
 
-/// Snell's law at a crossing, downwards or upwards; total internal reflection is followed with weight 1.
+/// Refracts rays at a crossing, by t = eta i + (eta c1 - c2) n; where there is total reflection, by t = i + 2 c1 n with weight 1.
 template <class F>
 LFDSIM_FN void cross(const TracedDisplay<Scalar<F>>& display, const Crossing<F>& here, Mask<F> active, GlassRays<F>& rays,
                      F& weight) {
@@ -378,8 +379,7 @@ LFDSIM_FN void pass_glass(const TracedDisplay<Scalar<F>>& display, const Bodies&
     if (display.has_stop) bodies.end(stop_ahead, arrived);
 }
 
-/// Traces rays through lenses in a clear or plate surround to the panel. passage.ray starts in the vertex plane of the first
-/// surfaces.
+/// Traces rays through lenses in a clear or plate surround to the panel, from the vertex plane of the first surfaces.
 template <class F>
 LFDSIM_FN PanelPoint<F> trace_glass(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Passage<F> passage) {

@@ -4,8 +4,11 @@
 
 namespace lfdsim::optics {
 
+/// Returns the direction numbers v_i, i = 0 .. 31, of all dimensions, as fractions of 2^32. Dimension 0 is van der Corput's
+/// sequence. The others continue m_1 .. m_s by the recurrence of a primitive polynomial of degree s with the inner coefficients a:
+/// v_i = a_1 v_(i-1) + ... + a_(s-1) v_(i-s+1) + v_(i-s) + v_(i-s) / 2^s, sums modulo 2 in each bit.
 constexpr DirectionNumbers sobol_directions() {
-    // s, a and m_1 .. m_s of dimensions 2 .. 6; dimension 1 is van der Corput's sequence.
+    // s, a and m_1 .. m_s, which the paper's file lists as dimensions 2 .. 6
     struct Dimension {
         int s, a, m[4];
     };

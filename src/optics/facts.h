@@ -9,10 +9,10 @@
 
 namespace lfdsim::optics {
 
-/// Knowledge of a fact at compile time: it does not hold, it holds, or the display has to be asked at run time.
+/// Knowledge of a fact at compile time: it does not hold, it holds, or it is tested on the display at run time.
 enum class Known : std::int8_t { no, yes, ask };
 
-/// A partly known display.
+/// What is known of a display at compile time. A default value knows nothing but that surfaces are not meshes.
 struct Facts {
     Known ideal = Known::ask;         // thin lenses, or pinholes
     Known lit_between = Known::ask;   // light passes the array between its lenses, through glass
@@ -26,7 +26,7 @@ struct Facts {
     Known meshed = Known::no;         // triangles represent the surfaces (src/interchange/meshed); no display says so itself
 
     bool operator==(const Facts&) const = default;
-    /// These facts and one more, which holds.
+    /// Returns these facts and one more, which holds.
     consteval Facts with(Known Facts::*fact) const {
         Facts facts = *this;
         facts.*fact = Known::yes;
@@ -36,7 +36,7 @@ struct Facts {
 
 inline namespace LFDSIM_ISA {
 
-/// A fact, as it is known or as the display answers.
+/// Returns whether a fact holds: as it is known, or else `asked`, the display's answer, which the compiler drops where it is known.
 template <Known known>
 LFDSIM_FN constexpr bool holds(bool asked) {
     return known == Known::ask ? asked : known == Known::yes;
@@ -51,18 +51,21 @@ LFDSIM_FN bool has_plain_light(const TracedDisplay<S>& display) {
            display.aperture == Aperture::circle;
 }
 
+/// Whether the lens is a spherical cap over a plane face, convex to the viewer and without a stop.
 template <class S>
 LFDSIM_FN bool is_plano_convex(const TracedDisplay<S>& display) {
     return !display.ideal && display.surface_count == 2 && display.surface[0].shape == Shape::sphere &&
            display.surface[1].shape == Shape::plane && !display.has_stop && !display.concave_front;
 }
 
+/// Whether light reaches the panel between lenses, too: the surround is `clear` or `plate`, which ideal lenses do not have.
 template <class S>
 LFDSIM_FN bool is_lit_between(const TracedDisplay<S>& display) {
     return !display.ideal && display.surround != Surround::opaque;
 }
 
-/// Whether all that is known holds for a display.
+/// Returns whether all that is known holds for a display: whether a copy of the tracer compiled with these facts may trace it.
+/// `meshed` is not tested, as no display says it.
 template <Facts facts, class S>
 LFDSIM_FN bool hold(const TracedDisplay<S>& display) {
     const auto agrees = [](Known known, bool answer) { return known == Known::ask || answer == (known == Known::yes); };
@@ -75,6 +78,7 @@ LFDSIM_FN bool hold(const TracedDisplay<S>& display) {
 
 /// The copies of the tracer, best first. LFDSIM_FEW_SPECIALISATIONS leaves the general ones, and a CPU gains nothing from plain
 /// light (LFDSIM_PLAIN_LIGHT): on a GPU code that is left out makes room in the cache of instructions.
+/// The last row serves for all displays for which neither of the two before it holds, so every display has a row.
 struct Specialisations {
     using enum Known;
     static constexpr Facts paper{
@@ -103,7 +107,7 @@ struct Specialisations {
     // clang-format on
     static constexpr int count = sizeof row / sizeof row[0];
 
-    /// The number of a row, for CUDA, whose kernels take no arguments of class type.
+    /// The number of a row, counted from 0, for CUDA, whose kernels take no template arguments of class type.
     template <Facts facts>
     static constexpr int number_of() {
         int number = 0;
@@ -112,7 +116,8 @@ struct Specialisations {
     }
 };
 
-/// do_it.operator()<facts>() with what is known of a display: the first row that holds.
+/// Calls do_it.operator()<facts>() with the first row of facts, from number `row` on, that holds for a display, and returns its
+/// result. The last row is taken untested.
 template <int row = 0, class S, class Do>
 inline auto with_facts(const TracedDisplay<S>& display, const Do& do_it)
     -> decltype(do_it.template operator()<Specialisations::row[row]>()) {
@@ -125,7 +130,7 @@ inline auto with_facts(const TracedDisplay<S>& display, const Do& do_it)
     }
 }
 
-/// do_it.operator()<facts>() for all rows, one after the other.
+/// Calls do_it.operator()<facts>() for all rows from number `row` on, one after the other.
 template <int row = 0, class Do>
 inline void for_all_specialisations(const Do& do_it) {
     do_it.template operator()<Specialisations::row[row]>();

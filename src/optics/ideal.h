@@ -19,15 +19,17 @@ LFDSIM_FN PanelPoint<F> trace_ideal(const TracedDisplay<Scalar<F>>& display, con
     passage.alive = passage.alive && extent.holds(passage.cell);
     if (display.aperture == Aperture::circle) passage.alive = passage.alive && (q2 <= r * r);
     if (display.has_stop) passage.alive = passage.alive && (q2 <= F(display.stop_radius2));
+    // The slope (dx/dz, dy/dz) below the lens, m + q/f
     const F fall = F(1) / passage.ray.to.z;
     const auto [mx, my] = bend(display, Vec2<F>{qx, qy}, Vec2<F>{passage.ray.to.x * fall, passage.ray.to.y * fall});
-    if (display.layer_count > 0) {
+    if (display.layer_count > 0) {  // layers need the unit direction of a line of that slope that goes down
         const F per = F(1) / sqrt(F(1) + mx * mx + my * my);
         Vec3<F> to{-mx * per, -my * per, -per};
         const Vec2<F> end = down_to_panel(display, {qx, qy, F(display.ideal_z)}, F(0) > F(1), to, passage.weight, passage.alive);
         if (display.emission_exponent != S(0)) passage.weight = passage.weight * power(-to.z, display.emission_exponent);
         return panel_point(display, display.lattice, base, passage.cell, end.x, end.y, passage.weight, passage.alive);
     }
+    // Without layers the line meets the panel, z = 0, at q - m z, and the cosine there is 1/sqrt(1 + m^2).
     if (display.emission_exponent != S(0)) {
         passage.weight = passage.weight * power(F(1) / sqrt(F(1) + mx * mx + my * my), display.emission_exponent);
     }

@@ -10,7 +10,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Whole numbers.
+/// A cell of the lattice, or its lens: column i, to the right, and row j, upwards. Both are whole numbers.
 template <class F>
 struct Cell {
     F i, j;
@@ -84,6 +84,7 @@ LFDSIM_FN Cell<F> cell_at(const Lattice<Scalar<F>>& lattice, F x, F y) {
     const F below = floor(y * F(lattice.per_pitch[1])), odd = parity(below), aside = odd * F(lattice.half_pitch[0]);
     const F i = cell_along(lattice, 0, x - aside), dx = x - (i * F(lattice.pitch[0]) + aside), dy = y - below * F(lattice.pitch[1]);
     const Borders<Scalar<F>> oblique = borders(lattice, 1);
+    // The point is above the oblique border of the lower hexagon: then it is in the row above, in the lens on the point's side.
     const Mask<F> beyond = F(oblique.x) * abs(dx) + F(oblique.y) * dy > F(oblique.half);
     const F i_above = i + odd - select(dx < F(0), F(1), F(0));
     return {select(beyond, i_above, i), select(beyond, below + F(1), below)};
@@ -115,7 +116,7 @@ LFDSIM_FN F across(const Lattice<Scalar<F>>& lattice, F y) {
     return lattice.strips ? F(0) : y;
 }
 
-/// Whether a point (x, y), measured from a lens's axis, lies in that lens's cell, or at most `margin` outside.
+/// Returns whether a point (x, y), measured from a lens's axis, lies in that lens's cell, or at most `margin` mm outside of it.
 template <class F>
 LFDSIM_FN Mask<F> in_cell(const Lattice<Scalar<F>>& lattice, F x, F y, F margin = F(0)) {
     const F half_x = F(lattice.half_pitch[0]) + margin;
@@ -138,6 +139,7 @@ LFDSIM_FN Vec2<S> axis_in_array(const Lattice<S>& lattice, Cell<S> lens) {
     return {x, y};
 }
 
+/// Returns the lens (i, j) in whose cell the point (x, y) lies; beside the array a number outside 0 .. count - 1.
 template <class S>
 LFDSIM_FN Cell<S> lens_at(const Lattice<S>& lattice, S x, S y) {
     if (lattice.staggered) {  // from the axis of lens (0, 0), in an even row
@@ -149,12 +151,14 @@ LFDSIM_FN Cell<S> lens_at(const Lattice<S>& lattice, S x, S y) {
     return {i, floor(y / lattice.pitch[1] + S(0.5) * lattice.count[1])};
 }
 
+/// Returns whether the array has a lens (i, j).
 template <class S>
 LFDSIM_FN bool holds(const Lattice<S>& lattice, Cell<S> lens) {
     return lens.i >= 0 && lens.i < lattice.count[0] && lens.j >= 0 && lens.j < lattice.count[1];
 }
 
-/// The lens nearest to one that there may not be, as a base lens: where rows are staggered, in an even row.
+/// Returns the lens (i, j) that serves as base lens near `near`, which may lie beside the array: the nearest one that exists, where
+/// rows are staggered in an even row.
 template <class S>
 LFDSIM_FN Cell<S> base_cell(const Lattice<S>& lattice, Cell<S> near) {
     const auto within = [](S k, S count) { return k > 0 ? k < count - 1 ? k : count - 1 : S(0); };
@@ -162,23 +166,23 @@ LFDSIM_FN Cell<S> base_cell(const Lattice<S>& lattice, Cell<S> near) {
     return {within(near.i, lattice.count[0]), lattice.staggered ? S(2) * floor(j / S(2)) : j};
 }
 
-// Between the frames.
+// Functions that convert between the display's frame and the array's. In the display's frame the array is turned counter-clockwise.
 
-/// A vector of the display's frame in the array's.
+/// Returns a vector of the display's frame in the array's frame.
 template <class F>
 LFDSIM_FN Vec2<F> to_array(const Lattice<Scalar<F>>& lattice, F x, F y) {
     const F c = F(lattice.cos_turn), s = F(lattice.sin_turn);
     return {c * x + s * y, c * y - s * x};
 }
 
-/// A vector of the array's frame in the display's.
+/// Returns a vector of the array's frame in the display's frame.
 template <class F>
 LFDSIM_FN Vec2<F> to_display(const Lattice<Scalar<F>>& lattice, F x, F y) {
     const F c = F(lattice.cos_turn), s = F(lattice.sin_turn);
     return {c * x - s * y, s * x + c * y};
 }
 
-/// A point of the array, from its middle, in the display's frame.
+/// Returns the point of the display's frame, mm, that lies at `from_middle` from the array's centre in the array's frame.
 template <class S>
 LFDSIM_FN Vec2<S> in_display(const Lattice<S>& lattice, Vec2<S> from_middle) {
     const Vec2<S> turned = to_display(lattice, from_middle.x, from_middle.y);

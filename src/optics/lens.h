@@ -10,14 +10,13 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// A packet of rays on its path through the array: position and direction, the cell of the lens, the share of radiance that is
-/// left, and which of the rays have not ended.
+/// A packet of rays on its path through the array.
 template <class F>
 struct Passage {
-    Ray<F> ray;  // from the lens's axis and the surface's vertex
-    Cell<F> cell;
-    F weight;
-    Mask<F> alive;
+    Ray<F> ray;     // from the lens's axis and the surface's vertex once it has met a lens, before that from the base lens's axis
+    Cell<F> cell;   // of the lens that it meets, counted from the base lens
+    F weight;       // the share of radiance that is left
+    Mask<F> alive;  // the rays that have not ended
 };
 
 /// Returns the lattice, with the kind of cells as a compile-time constant where the facts state it.
@@ -34,8 +33,8 @@ LFDSIM_FN decltype(auto) lattice_of(const TracedDisplay<S>& display) {
     }
 }
 
-/// Tells the compiler what is known where code that is compiled for any display follows. It takes facts one by one only, and
-/// forgets them where a function is called.
+/// Tells the compiler the facts that hold where code that is compiled for any display follows. The compiler makes use of facts
+/// stated one by one only, and forgets them where a function is called.
 template <Facts facts, class S>
 LFDSIM_FN void assume(const TracedDisplay<S>& display) {
     if (facts.on_air == Known::yes && display.glued) __builtin_unreachable();
@@ -66,7 +65,9 @@ LFDSIM_FN Hit<F> meet(Shape shape, const Surface& surface, Ray<F> in_vertex_plan
     return shape == Shape::sphere ? meet_sphere(surface, in_vertex_plane) : meet_asphere(surface, in_vertex_plane);
 }
 
-/// The ray meets the surface as a cylinder along y': seen along y' it meets the section, and its path is longer by 1/length.
+/// Intersects rays with a surface that is extruded along y'; they start as those of meet(). In projection along y' a ray meets the
+/// section as if that were a surface of revolution: with `length` = sqrt(d_x^2 + d_z^2) the projected direction is divided by it
+/// and the cosine of incidence multiplied by it (docs/model.md, "Lens array and surround").
 template <class F, class Surface>
 LFDSIM_FN Hit<F> meet_cylinder(Shape shape, const Surface& surface, const Ray<F>& in_vertex_plane) {
     const Vec3<F>&at = in_vertex_plane.at, &to = in_vertex_plane.to;
@@ -105,12 +106,14 @@ LFDSIM_FN Mask<F> inside_cell(const TracedDisplay<Scalar<F>>& display, Vec3<F> a
     return ok && in_cell(lattice_of<facts>(display), at.x, at.y);
 }
 
-/// Refracts a ray that comes down from the viewer's side (Snell's law as vectors; total internal reflection ends it).
+/// Refracts a ray that comes down from the viewer's side and moves it to the hit; total internal reflection ends it. Snell's law
+/// (docs/model.md, "Refraction"): t = eta i + (eta cos - sqrt(1 - eta^2 (1 - cos^2))) n, n towards the viewer's side. The weight is
+/// multiplied by the transmittance.
 template <Facts facts, class F>
 LFDSIM_FN void refract_down(const TracedDisplay<Scalar<F>>& display, Shape shape, const SurfaceData<Scalar<F>>& surface,
                             const Hit<F>& hit, Passage<F>& passage) {
     const F eta = F(surface.media.eta);
-    const F cos2 = (F(1) - eta * eta) + (eta * eta) * hit.cos2;
+    const F cos2 = (F(1) - eta * eta) + (eta * eta) * hit.cos2;  // of the refracted ray
     const F cosine = root(max(cos2, F(0)));
     passage.alive = passage.alive && (cos2 > F(0));
     const Vec3<F> i = passage.ray.to;
@@ -121,8 +124,8 @@ LFDSIM_FN void refract_down(const TracedDisplay<Scalar<F>>& display, Shape shape
         passage.ray.to = {eta * i.x + m * hit.normal.x, eta * i.y + m * hit.normal.y, eta * i.z + m * hit.normal.z};
     }
     passage.ray.at = hit.at;
-    const bool vanishes = facts.plano_convex != Known::yes && display.glued &&
-                          surface.media.n_above == surface.media.n_below;  // the lens's medium goes on
+    // A glued face that borders on a layer of the lens's index has no effect.
+    const bool vanishes = facts.plano_convex != Known::yes && display.glued && surface.media.n_above == surface.media.n_below;
     const Fresnel fresnel = facts.schlick == Known::yes ? Fresnel::schlick : display.fresnel;
     if (fresnel != Fresnel::none && !vanishes) {
         passage.weight =
@@ -131,7 +134,7 @@ LFDSIM_FN void refract_down(const TracedDisplay<Scalar<F>>& display, Shape shape
     }
 }
 
-/// Rules of pass_lens() for a single lens: its axis at the origin, and a sheet with stops without end.
+/// Rules of pass_lens() for a single lens: its axis is the origin, and the sheet of stops has a hole in every cell.
 template <class F>
 struct SingleLens {
     const TracedDisplay<Scalar<F>>& display;
@@ -143,8 +146,8 @@ struct SingleLens {
     }
 };
 
-/// The ideal thin lens: slopes (dx/dz, dy/dz) of a ray that has passed it = slopes before + q / f, q the point where it meets the
-/// lens, mm from the lens's axis; a strip changes the slope across it alone.
+/// Returns the slope (dx/dz, dy/dz) below an ideal lens of a ray with the slope `slope` above it: slope + q/f, q the point where it
+/// meets the lens, mm from the lens's axis (docs/model.md, "Lenses"). A strip changes the slope across it alone.
 template <class F>
 LFDSIM_FN Vec2<F> bend(const TracedDisplay<Scalar<F>>& display, Vec2<F> q, Vec2<F> slope) {
     const F power = F(display.ideal_power);
@@ -155,18 +158,17 @@ LFDSIM_FN Vec2<F> bend(const TracedDisplay<Scalar<F>>& display, Vec2<F> q, Vec2<
 /// where it meets the first surface, relative to the lens's own axis. Afterwards passage.ray is on the last surface, relative to
 /// that axis and the surface's vertex. A ray that ends inside the lens has passage.alive cleared. `rules` supplies what differs
 /// between callers:
-///   axis()                                  of the lens, in the frame in which stops are counted;
-///   meets(k, ray, hit, from_z, z, passage)      `ray`, in the vertex plane of surface k, meets it at height z, after one at
-///   from_z:
-///                                           clears passage.alive of rays outside the aperture;
-///   passes_stop(crosses, x, y)              rays of `crosses` cross the plane of the stops: is there a hole?
-///   leaves(passage)                         called when the last surface has been passed;
-///   passes_back(x, y)                       does a ray pass the hole in the black part's lower face?
-///   over(alive)                             whether to stop here: a packet goes on, a single ray that has ended need not.
-/// Rules of lenses that differ from each other (misaligned.h) have three more:
-///   meet(k, ray)                            where a ray in the vertex plane of surface k meets it;
-///   stop_between(from, end, at, to, ...)    the stop, in place of passes_stop();
-///   wall_bottom()                           where the black part ends.
+///   axis()                                   returns the lens's axis, in the frame in which stops are counted;
+///   meets(k, ray, hit, from_z, z, passage)   `ray`, in the vertex plane of surface k, meets it at the height z after the surface
+///                                            before at from_z: clears passage.alive of rays outside the aperture;
+///   passes_stop(crosses, x, y)               rays of `crosses` cross the plane of the stops: returns whether there is a hole;
+///   leaves(passage)                          is called when the last surface has been passed;
+///   passes_back(x, y)                        returns whether a ray passes the hole in the black part's lower face;
+///   over(alive)                              returns whether to end here: a packet goes on, a single ray that has ended need not.
+/// Rules of lenses that differ from each other (misaligned.h) have `pose` and three more:
+///   meet(k, ray)                             returns where a ray in the vertex plane of surface k meets it;
+///   stop_between(from, end, at, to, ahead)   tests the stop, in place of passes_stop();
+///   wall_bottom()                            returns the height at which the black part ends.
 template <Facts facts, class F, class Rules>
 LFDSIM_FN void pass_lens(const TracedDisplay<Scalar<F>>& display, Rules&& rules, const Ray<F>& entering, Hit<F> hit,
                          Passage<F>& passage) {
@@ -188,6 +190,7 @@ LFDSIM_FN void pass_lens(const TracedDisplay<Scalar<F>>& display, Rules&& rules,
         passage.alive = passage.alive && (through || !crosses);
         stop_ahead = stop_ahead && !crosses;
     };
+    // The first surface; the path to it begins above all lenses.
     const F above_all = F(S(1e30));
     if (has_stop) {
         const Vec2<F> axis = rules.axis();
@@ -197,6 +200,7 @@ LFDSIM_FN void pass_lens(const TracedDisplay<Scalar<F>>& display, Rules&& rules,
     rules.meets(0, entering, hit, above_all, hit.at.z + F(display.surface[0].z), passage);
     if (rules.over(passage.alive)) return;
     refract_down<facts>(display, shape_of<facts>(display, 0), display.surface[0], hit, passage);
+    // The further surfaces: to the vertex plane, on to the surface, and through it
     for (int k = 1; k < count; ++k) {
         const SurfaceData<S>&above = display.surface[k - 1], &surface = display.surface[k];
         const F t = quotient(F(surface.z - above.z) - passage.ray.at.z, passage.ray.to.z);  // to its vertex plane
@@ -215,6 +219,7 @@ LFDSIM_FN void pass_lens(const TracedDisplay<Scalar<F>>& display, Rules&& rules,
         if (rules.over(passage.alive)) return;
         refract_down<facts>(display, shape_of<facts>(display, k), surface, hit, passage);
     }
+    // Below the last surface: a stop there, and the hole of a concave back
     const F z = passage.ray.at.z + F(display.surface[count - 1].z);
     if (has_stop) stop_between(z, -above_all, passage.ray.at, passage.ray.to, z);
     if constexpr (by_itself)

@@ -20,7 +20,7 @@ struct Extent {
     }
 };
 
-/// A ray that crosses the plane of the stops at (x, y): does it pass a hole?
+/// Returns whether a ray that crosses the plane of the stops at (x, y) passes a hole.
 template <class F>
 LFDSIM_FN Mask<F> passes_stop(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, F x, F y) {
     const Cell<F> cell = cell_at(display.lattice, x, y);
@@ -29,7 +29,8 @@ LFDSIM_FN Mask<F> passes_stop(const TracedDisplay<Scalar<F>>& display, const Ext
     return (lx * lx + ly * ly <= F(display.stop_radius2)) && extent.holds(cell);
 }
 
-/// Where rows are staggered, for walk_cells(). The array has notches then: a line may pass cells without lenses between its lenses.
+/// Walks the cells of an array with staggered rows, for walk_cells(), from `begin` to `end`. Such an array has notches at its ends:
+/// a line may pass cells without a lens between cells that have one, so the walk goes on where there is no lens.
 template <class F, class Try>
 LFDSIM_FN void walk_staggered(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, F x, F y, F mx, F my,
                               F begin, F end, Mask<F> active, Try try_cell) {

@@ -10,6 +10,7 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// The poses of the lenses that a packet's rays meet, relative to their lattice positions (array frame).
 template <class F>
 struct LensPose {
+    // x', y', z of the viewer-side vertex, mm; the factor 1 + e of the curvatures; cosine and sine of tilt_x and of tilt_y
     F x, y, z, curvature, cos_x, sin_x, cos_y, sin_y;
 
     /// Transforms a vector of the array's frame to the lens's frame: the transpose of Ry(tilt_y) Rx(tilt_x).
@@ -24,7 +25,7 @@ struct LensPose {
     }
 };
 
-/// Returns the poses of the lenses in these cells; where `there` is false, that of an arbitrary lens.
+/// Returns the poses of the lenses in these cells; where `there` is false, that of the array's first lens.
 template <class F>
 LFDSIM_FN LensPose<F> pose_of(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Cell<F> cell,
                               Mask<F> there) {
@@ -33,6 +34,7 @@ LFDSIM_FN LensPose<F> pose_of(const TracedDisplay<Scalar<F>>& display, const Ext
     const MisalignedArray<S>& misaligned = display.misaligned;
     const F zero = F(0), one = F(1);
     if (!misaligned.lens) return {zero, zero, zero, one, one, zero, one, zero};
+    // Lenses are stored row by row from the lower left one, which is cell (low_i, low_j).
     const F number = (cell.j - F(extent.low_j)) * F(display.lattice.count[0]) + (cell.i - F(extent.low_i));
     std::uint32_t row[N];  // a lens is two rows of four numbers
     store(to_int(select(there, number, zero)) << 1, row);
@@ -43,7 +45,8 @@ LFDSIM_FN LensPose<F> pose_of(const TracedDisplay<Scalar<F>>& display, const Ext
     return {place[0], place[1], place[2], place[3], turn[0], turn[1], turn[2], turn[3]};
 }
 
-/// A surface whose curvature differs from lens to lens, as meet() and sag() take it.
+/// A surface whose curvature differs from lens to lens, in the form that meet() and sag() take: a SurfaceData with its curvature
+/// multiplied by 1 + e. Vertices, conic constant and aspheric terms stay (docs/model.md, "Errors").
 template <class F>
 struct CurvedSurface {
     Shape shape;
@@ -64,11 +67,12 @@ struct CurvedSurface {
           low(from.low),
           high(from.high) {
         const F cr = curvature * F(from.semi_aperture), cr2 = cr * cr;
-        c_rim = cr2 / (F(1) + sqrt(max(F(1) - cr2, F(0))));  // of a sphere, which alone asks for it
+        c_rim = cr2 / (F(1) + sqrt(max(F(1) - cr2, F(0))));  // c sag(r) of a sphere, which alone needs it
     }
 };
 
-/// Where a ray meets surface k of lenses whose curvature is multiplied by `factor`.
+/// Returns where a ray meets surface k of lenses whose curvature is multiplied by `factor`, in the frame and with the order of
+/// meet().
 template <Facts facts, class F>
 LFDSIM_FN Hit<F> meet_curved(const TracedDisplay<Scalar<F>>& display, int k, const Ray<F>& in_vertex_plane, F factor) {
     const Shape shape = shape_of<facts>(display, k);

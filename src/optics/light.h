@@ -11,8 +11,9 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// The texel that each ray of a packet reaches, and the share of its light that the ray carries: 0 where it reaches none.
 template <class F>
 struct Fetch {
-    // The texel's number; of several lanes its offset in pairs of floats, as addresses scale by 8 bytes at most.
     static constexpr int shift = LaneTraits<F>::width == 1 ? 0 : 1;
+    // The texel's number; of several lanes its offset in pairs of floats, as addresses scale by 8 bytes at most. On a panel with
+    // subpixels the number of PanelHit, four times the texel's plus the channel, shifted alike.
     Uint<F> place = Uint<F>(0u);
     F weight = F(0);
 
@@ -20,7 +21,7 @@ struct Fetch {
     LFDSIM_FN explicit Fetch(const PanelHit<F>& hit)
         : place(select(hit.lit, hit.pixel, Uint<F>(0u)) << shift), weight(select(hit.lit, hit.weight, F(0))) {}
 
-    /// One colour of the texels, times their weights.
+    /// Returns one colour (0 .. 2) of the texels, times their weights.
     LFDSIM_FN F light_of(const float* texels, int colour) const {
         return LaneTraits<F>::gather_pairs(texels + colour, place << (1 - shift)) * weight;
     }
@@ -62,7 +63,7 @@ class Fetching {
         if constexpr (N > 1) asm("" : "+m"(index_));
 #endif
     }
-    /// The texels of pixels quarter N/4 .. (quarter + 1) N/4 - 1, times their weights. With one lane: colour `quarter`.
+    /// Returns the texels of the pixels quarter N/4 .. (quarter + 1) N/4 - 1, times their weights. With one lane: colour `quarter`.
     template <int quarter>
     LFDSIM_FN F light(const float* texels) const {
         if constexpr (N == 1) {
@@ -104,7 +105,7 @@ struct Light {
         sum[2] = sum[2] + a.template light<2>(texels);
         sum[3] = sum[3] + a.template light<3>(texels);
     }
-    /// Two samples: their light is summed before it is added.
+    /// Adds two samples, whose light is summed before it is added: the order of sums decides on their last bits.
     LFDSIM_FN void add(const float* texels, const Fetch<F>& first, const Fetch<F>& second) {
         const Fetching<F> a(first), b(second);
         sum[0] = sum[0] + (a.template light<0>(texels) + b.template light<0>(texels));
@@ -129,7 +130,7 @@ struct Light {
             add(both);
         }
     }
-    /// Adds one channel of another, or all of them (3).
+    /// Adds one channel (0 .. 2) of another sum, or all of them (3).
     LFDSIM_FN void add(const Light& other, int channel) {
         Scalar<F> shown[4 * N];
         for (int k = 0; k < 4 * N; ++k) shown[k] = channel == 3 || channel == k % 4 ? Scalar<F>(1) : Scalar<F>(0);
@@ -143,11 +144,11 @@ struct Light {
         const Scalar<F>* const first = lanes[0];
         for (int r = 0; r < 4; ++r) sum[r] = sum[r] + load<F>(first + r * N);
     }
-    /// R, G, B and an unused number of each pixel.
+    /// Writes R, G, B and an unused number of each pixel, 4 N numbers in all.
     LFDSIM_FN void store(Scalar<F>* to) const {
         for (int r = 0; r < 4; ++r) optics::store(sum[r], to + r * N);
     }
-    /// Colour c of pixel k.
+    /// Returns colour c (0 .. 2) of pixel k of the packet.
     LFDSIM_FN Scalar<F> operator()(int k, int c) const {
         if constexpr (N == 1)
             return sum[c];

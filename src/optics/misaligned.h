@@ -10,19 +10,19 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// A lens, and where a ray meets it: in the lens's frame. The ray enters it at the path length `path_length` from where it starts:
-/// on its first surface, or, if that is concave, through the hole over it, from where it may miss the surface.
+/// A lens, and where a ray meets it, in the lens's frame. A ray enters a lens on its first surface, or, if that is concave, through
+/// the hole over it, from where it may miss the surface.
 template <class F>
 struct Encounter {
     Cell<F> cell;
     LensPose<F> pose;
-    Ray<F> entering;  // in the vertex plane of the first surface, or in a thin lens
-    Hit<F> hit;
-    F path_length;
+    Ray<F> entering;  // in the vertex plane of the first surface, or in an ideal lens
+    Hit<F> hit;       // on the first surface; `ok` only where the ray enters, too
+    F path_length;    // from the ray's start to where it enters, mm
     Mask<F> enters;
 };
 
-/// `ray` in the array's frame, z from the vertex plane; fall = 1 / ray.to.z.
+/// Returns where a ray meets the lens in `cell`. `ray` is in the array's frame, z from the vertex plane; fall = 1 / ray.to.z.
 template <Facts facts, class F>
 LFDSIM_FN Encounter<F> meet_misaligned(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
                                        F fall, Cell<F> cell) {
@@ -36,6 +36,7 @@ LFDSIM_FN Encounter<F> meet_misaligned(const TracedDisplay<Scalar<F>>& display, 
         to = at.pose.turned_in(to);
         fall = F(1) / to.z;
     }
+    // To the vertex plane of the first surface, then to the surface
     const Mask<F> comes = there && (to.z < F(0));
     const bool thin = holds<facts.ideal>(display.ideal);
     const S vertex = thin ? display.ideal_z : display.surface[0].z;
@@ -69,6 +70,7 @@ LFDSIM_FN Vec3<F> choose(Mask<F> first, Vec3<F> a, Vec3<F> b) {
     return {select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};
 }
 
+/// Replaces `to` by `from` in the lanes of `taken`, which all enter their lens.
 template <class F>
 LFDSIM_FN void take(Mask<F> taken, const Encounter<F>& from, Encounter<F>& to) {
     const auto one = [&](F a, F b) { return select(taken, a, b); };
@@ -83,7 +85,8 @@ LFDSIM_FN void take(Mask<F> taken, const Encounter<F>& from, Encounter<F>& to) {
     to.enters = to.enters || taken;
 }
 
-/// The cells of a lattice next to one, and it itself: do(cell) for each.
+/// Calls do_it(cell) for a cell and its neighbours: three by three, of strips three in a row. Of staggered rows these include all
+/// cells that border on it.
 template <class F, class Do>
 LFDSIM_FN void around(const Lattice<Scalar<F>>& lattice, Cell<F> cell, const Do& do_it) {
     using S = Scalar<F>;
@@ -91,7 +94,7 @@ LFDSIM_FN void around(const Lattice<Scalar<F>>& lattice, Cell<F> cell, const Do&
         for (int i = -1; i <= 1; ++i) do_it(Cell<F>{cell.i + F(S(i)), cell.j + F(S(j))});
 }
 
-/// Replaces `first` by what rays of `near` meet in a cell, where they meet its lens before that.
+/// Replaces `first` by the lens in `cell` for the rays of `near` that enter it at a shorter path length.
 template <Facts facts, class F>
 LFDSIM_FN void meet_in(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
                        Cell<F> cell, Mask<F> near, Encounter<F>& first) {
@@ -99,15 +102,16 @@ LFDSIM_FN void meet_in(const TracedDisplay<Scalar<F>>& display, const Extent<Sca
     take(near && next.enters && (!first.enters || (next.path_length < first.path_length)), next, first);
 }
 
-/// Which paths, seen from above and from the axis of their cell, come near one of its borders only? Lenses stand out of theirs
-/// by up to `overhang`: such a path leads past no other lens than that of the cell beyond the border, `other`. (Of hexagons, the
-/// part between the other borders' lines is in that cell; low bricks may have two beyond a border.)
+/// Returns which paths come near one border of their cell only. `from` and `end` are a path's ends in a view from above, from the
+/// axis of the cell `own`. Lenses protrude from their cells by up to `overhang`, so such a path leads past no other lens than that
+/// of the cell beyond the border, which is written to `other`. (Of hexagons, the part between the other borders' lines is in that
+/// cell; low bricks may have two beyond a border.)
 template <class F>
 LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> own, Vec2<F> from, Vec2<F> end, F overhang,
                                    Cell<F>& other) {
     using S = Scalar<F>;
     const F zero = F(0), one = F(1);
-    F pair = zero, side = zero, borders_near = zero;
+    F pair = zero, side = zero, borders_near = zero;  // the last border found near, and how many are
     Mask<F> ends_there = zero < one;
     for (int k = 0; k < border_pairs(lattice); ++k) {
         const Borders<S> of = borders(lattice, k);
@@ -123,9 +127,9 @@ LFDSIM_FN Mask<F> nears_one_border(const Lattice<Scalar<F>>& lattice, Cell<F> ow
     return ends_there && (borders_near == one);
 }
 
-/// The rays of `astray` pass cells whose neighbours' lenses may stand out into them: finds the lens that each meets first, if it
-/// meets any before `first`. `from`, `end`: where they come down to search_top, and where their paths end, from the axis of
-/// their own cell; `at`: the former from the base lens's axis.
+/// Finds the lens that each ray of `astray` meets first, if it meets any before `first`: these rays pass cells into which lenses of
+/// neighbours may protrude. `from`, `end`: where they come down to search_top, and where their paths end, from the axis of the cell
+/// first.cell; `at`: the former from the base lens's axis.
 template <Facts facts, class F>
 LFDSIM_RARE void meet_others(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F fall,
                              Vec2<F> from, Vec2<F> end, Vec2<F> at, Mask<F> astray, Encounter<F>& first) {
@@ -140,7 +144,7 @@ LFDSIM_RARE void meet_others(const TracedDisplay<Scalar<F>>& display, const Exte
     const F depth = F(misaligned.search_top - misaligned.search_bottom), r2 = F(misaligned.radius * misaligned.radius);
     const Vec2<F> m{-(ray.to.x * fall), -(ray.to.y * fall)};  // lateral displacement per mm of descent
     const F length2 = max(m.x * m.x + m.y * m.y, F(S(1e-20)));
-    // Lenses at the array's border may stand out of all cells.
+    // Otherwise all lenses around each cell on the path. Lenses at the array's border may protrude from all cells.
     const Extent<S> wider{extent.low_i - 1, extent.high_i + 1, extent.low_j - 1, extent.high_j + 1};
     walk_cells(display, wider, at.x, at.y, m.x, m.y, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
         around(display.lattice, cell, [&](Cell<F> here) {
@@ -154,11 +158,12 @@ LFDSIM_RARE void meet_others(const TracedDisplay<Scalar<F>>& display, const Exte
             if (none(near)) return;
             meet_in<facts>(display, extent, ray, fall, here, near, first);
         });
-        return F(0) > F(1);
+        return F(0) > F(1);  // on to the next cell in any case: a lens farther along the path may protrude and be met first
     });
 }
 
-/// Whether a point, from its own lens's axis and within a pitch of it, comes as near to the axis of another lens as sqrt(reach2).
+/// Returns whether a point, measured from a lens's axis and within a pitch of it, is at most sqrt(reach2) from the axis of another
+/// lens; true farther out, where it is not known.
 template <class F>
 LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Vec2<F> at, F reach2) {
     const F x = abs(at.x), y = across(lattice, abs(at.y)), px = F(lattice.pitch[0]), py = F(lattice.pitch[1]);
@@ -174,7 +179,8 @@ LFDSIM_FN Mask<F> nears_another(const Lattice<Scalar<F>>& lattice, Vec2<F> at, F
     return (nearest <= reach2) || (x > px) || (y > py);
 }
 
-/// The first lens that a ray meets; `ray` in the array's frame, z from the vertex plane.
+/// Returns the first lens that a ray meets; `ray` is in the array's frame, z from the vertex plane. Only the lens of the cell that
+/// the ray points at is tested for all rays; others only where the path may come near them.
 template <Facts facts, class F>
 LFDSIM_FN Encounter<F> enter_misaligned(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray,
                                         Mask<F> alive) {
@@ -184,7 +190,7 @@ LFDSIM_FN Encounter<F> enter_misaligned(const TracedDisplay<Scalar<F>>& display,
     const F x = ray.at.x + ray.to.x * up, y = ray.at.y + ray.to.y * up;
     const Cell<F> cell = cell_at(display.lattice, x, y);
     Encounter<F> first = meet_misaligned<facts>(display, extent, ray, fall, cell);
-    // A path from there to the lens, or to below all lenses, that is further from the cell's border than lenses stand out of their
+    // A path from there to the lens, or to below all lenses, that is further from the cell's border than lenses protrude from their
     // cells leads past no other one. Nor does one that is further from other lenses than they are wide.
     const Vec2<F> axis = axis_of(display.lattice, cell);
     const F path_length = select(first.enters, first.path_length, down), end_x = ray.at.x + ray.to.x * path_length,
@@ -211,8 +217,8 @@ LFDSIM_FN Encounter<F> enter_misaligned(const TracedDisplay<Scalar<F>>& display,
     return first;
 }
 
-/// Does a straight part of a ray's path pass the stop's hole of a lens in one of these cells? `p` in the array's frame, z from the
-/// vertex plane; `from` and `end` are path lengths from there.
+/// Returns whether a straight part of a ray's path passes the stop's hole of the lens in `cell`. `p` is in the array's frame, z
+/// from the vertex plane; `from` and `end` are path lengths from there.
 template <class F>
 LFDSIM_FN Mask<F> passes_hole(const TracedDisplay<Scalar<F>>& display, Cell<F> cell, const LensPose<F>& pose, Vec3<F> p, Vec3<F> d,
                               F from, F end) {
@@ -222,7 +228,8 @@ LFDSIM_FN Mask<F> passes_hole(const TracedDisplay<Scalar<F>>& display, Cell<F> c
     return (t >= from) && (t <= end) && (x * x + y * y <= F(display.stop_radius2));
 }
 
-/// Returns whether it passes the hole of any lens near the point at the path length `near`.
+/// Returns whether a straight part of a ray's path passes the hole of any lens near the point at the path length `near`; the rest
+/// as for passes_hole().
 template <class F>
 LFDSIM_RARE Mask<F> passes_any_hole(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Vec3<F> p, Vec3<F> d,
                                     F near, F from, F end, Mask<F> active) {
@@ -235,8 +242,8 @@ LFDSIM_RARE Mask<F> passes_any_hole(const TracedDisplay<Scalar<F>>& display, con
     return through;
 }
 
-/// The rules of pass_lens() for a misaligned lens. Its stop's hole lies in the array's frame, moved with the lens but
-/// not turned; a ray may pass that of any lens.
+/// The rules of pass_lens() for a misaligned lens. The hole of its stop lies in the array's frame, moved with the lens but not
+/// tilted; a ray may pass the hole of any lens.
 template <Facts facts, class F>
 struct InMisalignedArray : InArray<Facts{}, F> {
     const LensPose<F> pose;
@@ -248,10 +255,11 @@ struct InMisalignedArray : InArray<Facts{}, F> {
 
     LFDSIM_FN F wall_bottom() const { return outmost_rim(this->display, false, pose.curvature); }
 
-    /// Takes the rays from `ahead` that pass a hole on a straight part of their path: from `at`, in the lens's frame, z from the
+    /// Removes from `ahead` the rays that pass a hole on a straight part of their path: from `at`, in the lens's frame, z from the
     /// panel, between these path lengths.
     LFDSIM_FN void stop_between(F from, F end, Vec3<F> at, Vec3<F> to, Mask<F>& ahead) const {
         const auto& here = this->display;
+        // Back to the array's frame, in which the holes are
         Vec3<F> p{at.x, at.y, at.z - F(here.misaligned.vertex_z)}, d = to;
         if (here.misaligned.tilted) {
             p = pose.turned_out(p);
@@ -267,7 +275,8 @@ struct InMisalignedArray : InArray<Facts{}, F> {
     }
 };
 
-/// A thin lens or a pinhole: passage.ray leaves it in the lens's frame.
+/// Traces a ray through an ideal lens or a pinhole, by slope + q (1 + e)/f, and through the stop before or after it; passage.ray
+/// leaves the lens in the lens's frame.
 template <Facts facts, class F>
 LFDSIM_FN void pass_thin(const TracedDisplay<Scalar<F>>& display, const InMisalignedArray<facts, F>& rules, const Encounter<F>& met,
                          Passage<F>& passage) {
@@ -285,7 +294,8 @@ LFDSIM_FN void pass_thin(const TracedDisplay<Scalar<F>>& display, const InMisali
     passage.alive = passage.alive && !ahead;
 }
 
-/// A vector of the frame turned about z in the array's (`in`), or the reverse.
+/// Returns a vector of the frame turned about z alone in the array's frame (`in`), or the reverse. The wedge is a rotation, so its
+/// transpose is its inverse.
 template <class F>
 LFDSIM_FN Vec3<F> wedged(const MisalignedArray<Scalar<F>>& misaligned, bool in, Vec3<F> v) {
     const auto row = [&](int k) {
@@ -295,8 +305,9 @@ LFDSIM_FN Vec3<F> wedged(const MisalignedArray<Scalar<F>>& misaligned, bool in, 
     return {row(0), row(1), row(2)};
 }
 
-/// The middle of a lens's hole, `below_vertex` mm below the vertex about which the lens tilts, or of a cell without a lens; z from
-/// the array's vertex plane. y: of any point of a strip's axis.
+/// Returns the middle of a lens's hole, `below_vertex` mm below the vertex about which the lens tilts; of a cell without a lens
+/// that of a lens at its lattice position. The frame is the one turned about z alone, z from the array's vertex plane. y: of any
+/// point of a strip's axis.
 template <class S>
 LFDSIM_FN Vec3<S> middle_of_hole(const TracedDisplay<S>& display, const Extent<S>& extent, Cell<S> lens, S y, S below_vertex) {
     const bool there = extent.holds(lens);
@@ -307,7 +318,8 @@ LFDSIM_FN Vec3<S> middle_of_hole(const TracedDisplay<S>& display, const Extent<S
     return display.misaligned.wedged ? wedged<S>(display.misaligned, false, at) : at;
 }
 
-/// A ray in the plane z = entrance, of the frame turned about z, in the array's, z from the vertex plane.
+/// Returns a ray in the array's frame, z from the vertex plane. `ray` is in the frame turned about z alone and starts at the height
+/// of the first vertex, or of the ideal lens.
 template <class F>
 LFDSIM_FN Ray<F> in_array(const TracedDisplay<Scalar<F>>& display, const PanelBase<Scalar<F>>& base, const Ray<F>& ray) {
     const MisalignedArray<Scalar<F>>& misaligned = display.misaligned;
@@ -338,7 +350,7 @@ LFDSIM_FN PanelPoint<F> trace_misaligned(const TracedDisplay<Scalar<F>>& display
     using S = Scalar<F>;
     const MisalignedArray<S>& misaligned = display.misaligned;
     const Ray<F> ray = in_array(display, base, passage.ray);
-    passage.alive = passage.alive && (ray.to.z < F(S(-1e-9)));
+    passage.alive = passage.alive && (ray.to.z < F(S(-1e-9)));  // in the array's frame, too, it has to go down
     const Encounter<F> met = enter_misaligned<facts>(display, extent, ray, passage.alive);
     passage.alive = passage.alive && met.hit.ok;
     passage.cell = met.cell;
@@ -352,6 +364,7 @@ LFDSIM_FN PanelPoint<F> trace_misaligned(const TracedDisplay<Scalar<F>>& display
         pass_lens<facts>(display, rules, met.entering, met.hit, passage);
         plane = display.surface[facts.plano_convex == Known::yes ? 1 : display.surface_count - 1].z;
     }
+    // From the lens's frame back to the array's
     Vec3<F> at{passage.ray.at.x, passage.ray.at.y, passage.ray.at.z + F(plane - misaligned.vertex_z)}, to = passage.ray.to;
     if (misaligned.tilted) {
         at = met.pose.turned_out(at);

@@ -8,6 +8,8 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
+/// The bodies and stops of a misaligned plate, as pass_glass() takes them. A "lens" is a cell; `top` chooses the sheet's
+/// viewer-side face, else its panel-side one, whose caps hang down from the slab.
 template <class F>
 struct MovedCaps {
     const TracedDisplay<Scalar<F>>& display;
@@ -17,23 +19,24 @@ struct MovedCaps {
 
     LFDSIM_FN const SurfaceData<S>& face(bool top) const { return display.surface[top ? 0 : display.surface_count - 1]; }
 
-    /// (x, y) from the axis of a lens with this pose.
+    /// Returns (x, y), which is from the base lens's axis, from the axis of a lens with this pose.
     LFDSIM_FN Vec2<F> from_axis(Cell<F> lens, const LensPose<F>& pose, F x, F y) const {
         const Vec2<F> axis = axis_of(display.lattice, lens);
         return {x - axis.x - pose.x, y - axis.y - pose.y};
     }
+    /// Returns whether a point, from a lens's axis, is within its cap's outline, widened by `margin` mm.
     LFDSIM_FN Mask<F> in_aperture(const SurfaceData<S>& surface, Vec2<F> at, F margin) const {
         const F y = across(display.lattice, at.y), r = F(surface.semi_aperture) + margin;
         const Mask<F> round = at.x * at.x + y * y <= r * r;
         return display.aperture == Aperture::cell ? round && in_cell(display.lattice, at.x, at.y, margin) : round;
     }
-    /// Does a cell's corner lie within the semi-aperture? Those of an array that is stretched by an error may not.
+    /// Returns whether a cell's corners lie within the semi-aperture. Those of an array that is stretched by an error may not.
     LFDSIM_FN bool holds_cell(const SurfaceData<S>& surface) const {
         const S x = display.lattice.half_pitch[0],
-                y = display.lattice.hexagonal ? x * S(0.57735026918962576) : display.lattice.half_pitch[1];
+                y = display.lattice.hexagonal ? x * S(0.57735026918962576) : display.lattice.half_pitch[1];  // 1/sqrt(3)
         return x * x + y * y <= surface.semi_aperture * surface.semi_aperture;
     }
-    /// z of a lens's cap there.
+    /// Returns the height of a lens's cap over the panel at a point from its axis.
     LFDSIM_FN F cap(const SurfaceData<S>& surface, const LensPose<F>& pose, Vec2<F> at) const {
         const F y = across(display.lattice, at.y);
         F z, slope;
@@ -42,7 +45,8 @@ struct MovedCaps {
         return z + F(surface.z) + pose.z;
     }
 
-    /// Is a point within the glass under the cap of a lens other than `but`? A point on its border is not.
+    /// Returns whether a point is within the glass under the cap of a lens other than `but`. A point on the border of that glass is
+    /// not.
     LFDSIM_RARE Mask<F> covered(bool top, Vec3<F> p, Cell<F> but, Mask<F> active) const {
         const auto& surface = face(top);
         const F sense = F(S(top ? 1 : -1));
@@ -58,7 +62,8 @@ struct MovedCaps {
         return under;
     }
 
-    /// The sides of the glass under a lens's cap, where that rises above the slab, crossed inwards or outwards.
+    /// Offers `best` the crossings, inwards or outwards, of the upright sides of the glass under a lens's cap, where that is higher
+    /// than the slab.
     LFDSIM_FN void sides(bool top, bool inwards, const GlassRays<F>& rays, Cell<F> lens, const LensPose<F>& pose, Mask<F> active,
                          Crossing<F>& best) const {
         const auto& surface = face(top);
@@ -76,6 +81,7 @@ struct MovedCaps {
             }
             best.take(valid, t, normal, lens);
         };
+        // A round side, at the semi-aperture: of round lenses, and of cells whose corners lie beyond it
         const bool fills = display.aperture == Aperture::cell;
         if (!display.lattice.strips && !(fills && holds_cell(surface))) {
             const F r = F(surface.semi_aperture), per = one / r;
@@ -86,6 +92,7 @@ struct MovedCaps {
             offer(real && in_aperture(surface, at, slack<F>()), t, {at.x * per, at.y * per, zero}, at);
         }
         if (!display.lattice.strips && !fills) return;
+        // Plane sides, at the cell's borders or at a strip's edges
         for (int pair = 0; pair < border_pairs(display.lattice); ++pair) {
             const Borders<S> wall = borders(display.lattice, pair);
             const S r = surface.semi_aperture, half_width = display.lattice.strips && (!fills || r < wall.half) ? r : wall.half;
@@ -97,7 +104,8 @@ struct MovedCaps {
         }
     }
 
-    /// The next crossing of the sheet's top or bottom: on the flat, on a cap or at its side.
+    /// Offers `best` the next crossing of the sheet's top or bottom: on the flat, on a cap or at a cap's side. Glass of several
+    /// caps overlaps, so a crossing outwards counts only where no other cap covers it.
     LFDSIM_FN void next_on_face(bool top, bool inwards, const GlassRays<F>& rays, Mask<F> active, Crossing<F>& best) const {
         const auto& surface = face(top);
         const F sense = F(S(top ? 1 : -1)), flat = F(surface.z + surface.rim), nothing = F(S(-1e9));
@@ -109,6 +117,7 @@ struct MovedCaps {
                 on_flat && !covered(top, {rays.at.x + rays.to.x * t, rays.at.y + rays.to.y * t, flat}, {nothing, nothing}, on_flat);
         best.take(on_flat, t, {F(0), F(0), sense}, Cell<F>{F(0), F(0)});
         if (plane) return;
+        // The caps of all cells near the path through the zone of caps, which reaches as high and low as the errors move them
         const MisalignedArray<S>& misaligned = display.misaligned;
         const S edge = S(1e-4);  // mm: the zone's border belongs to it
         const S low = surface.z + min(surface.low, surface.rim) + (misaligned.lowest < 0 ? misaligned.lowest : S(0)) - edge,
@@ -121,6 +130,7 @@ struct MovedCaps {
                 length2 = max(rays.to.x * rays.to.x + rays.to.y * rays.to.y, F(S(1e-20)));
         walk_cells(display, wider, rays.at.x, rays.at.y, rays.to.x, rays.to.y, in, out, active, [&](Cell<F> cell, Mask<F> here) {
             around(display.lattice, cell, [&](Cell<F> lens) {
+                // Only lenses whose axis is nearer than their radius to the path: s is the path length at the nearest point
                 const Vec2<F> axis = axis_of(display.lattice, lens);
                 const F dx = axis.x - rays.at.x, dy = across(display.lattice, axis.y - rays.at.y);
                 const F s = min(max((dx * rays.to.x + dy * rays.to.y) / length2, in), out);
@@ -160,19 +170,20 @@ struct MovedCaps {
         if (any(above)) next_on_face(true, true, rays, above, next);
         if (any(below)) next_on_face(false, true, rays, below, next);
     }
-    /// Takes the rays from `ahead` that go down through a hole within the path length `path_length`, below the lowest that they
-    /// have been: one that comes back up has met the black beside that hole.
+    /// Removes from `ahead` the rays that go down through a hole within the path length `path_length`, below the lowest height that
+    /// they have reached: one that comes back up has met the black beside that hole.
     LFDSIM_FN void stop(const GlassRays<F>& rays, F path_length, F lowest, Mask<F>& ahead, Mask<F>&) const {
         const Vec3<F> at{rays.at.x, rays.at.y, rays.at.z - F(display.misaligned.vertex_z)}, to = rays.to;
         const F near = (F(display.stop_z) - rays.at.z) / to.z, start = max((lowest - rays.at.z) / to.z, F(0));
         const Mask<F> down = ahead && (to.z < F(0));
         if (any(down)) ahead = ahead && !passes_any_hole(display, extent, at, to, near, start, path_length, down);
     }
+    /// Ends the rays that have passed no hole.
     LFDSIM_FN void end(Mask<F> ahead, Mask<F>& arrived) const { arrived = arrived && !ahead; }
 };
 
-/// Traces rays through a moulded plate with misaligned lenses to the panel. passage.ray starts in the plane of the first
-/// vertices, mm from the base lens's axis.
+/// Traces rays through a moulded plate with misaligned lenses to the panel. passage.ray starts in the plane of the first vertices,
+/// mm from the base lens's axis, in the frame turned about z alone.
 template <class F>
 LFDSIM_FN PanelPoint<F> trace_misaligned_plate(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                                const PanelBase<Scalar<F>>& base, const Passage<F>& passage) {

@@ -11,8 +11,8 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Where a ray in the vertex plane of the first surfaces, x and y from the base lens's axis, meets the first surface of the lens in
-/// `cell`. The hit is relative to the axis of that lens.
+/// Returns where a ray in the vertex plane of the first surfaces, x and y from the base lens's axis, meets the first surface of the
+/// lens in `cell`. The hit is relative to the axis of that lens.
 template <Facts facts, class F>
 LFDSIM_FN Hit<F> meet_first(const TracedDisplay<Scalar<F>>& display, Ray<F> ray, Cell<F> cell) {
     const Vec2<F> axis = axis_of(lattice_of<facts>(display), cell);
@@ -23,7 +23,8 @@ LFDSIM_FN Hit<F> meet_first(const TracedDisplay<Scalar<F>>& display, Ray<F> ray,
     return hit;
 }
 
-/// Whether no lens but those of its first and its last cell is on a path from (x, y) to (x + ex, y + ey).
+/// Returns whether a path from (x, y) in the cell `first` to (x + ex, y + ey) in the cell `last` can meet no lens but theirs. False
+/// where that is not certain.
 template <class F>
 LFDSIM_FN Mask<F> passes_two_cells(const TracedDisplay<Scalar<F>>& display, Cell<F> first, Cell<F> last, F x, F y, F ex, F ey) {
     using S = Scalar<F>;
@@ -36,6 +37,7 @@ LFDSIM_FN Mask<F> passes_two_cells(const TracedDisplay<Scalar<F>>& display, Cell
     const S pitch = lattice.pitch[0], far = S(0.866) * pitch - display.surface[0].semi_aperture;
     const Vec2<F> from = axis_of(lattice, first), to = axis_of(lattice, last);
     const F dx = to.x - from.x, dy = to.y - from.y, ax = x - from.x, ay = y - from.y;
+    // Distances of the path's ends from the line through both axes, times the distance of the axes
     const F start = ax * dy - ay * dx, end = start + (ex * dy - ey * dx);
     return (dx * dx + dy * dy <= F(S(1.1) * pitch * pitch)) && (max(abs(start), abs(end)) <= F(pitch * far));
 }
@@ -71,10 +73,11 @@ LFDSIM_RARE void meet_neighbours(const TracedDisplay<Scalar<F>>& display, const 
     walk_cells(display, extent, x, y, mx, my, F(0), depth, astray, try_cell);
 }
 
-/// Which rays may meet another lens on their path from (x, y) to (x + ex, y + ey), where they are down at the rims, seen from
-/// above? Each starts in `cell`, whose lens it misses; r is the semi-aperture. None that ends in its own cell can. A ray that
-/// passes within r of another axis and ends outside of that lens has passed the foot of the perpendicular from the axis, at most r
-/// away, and from there it moves less than |(ex, ey)|: it ends at most sqrt(r^2 + ex^2 + ey^2) from that axis.
+/// Returns which rays may meet another lens on their path from (x, y) to (x + ex, y + ey), where they are down at the rims, in a
+/// view from above. Each starts in `cell`, whose lens it misses; r is the semi-aperture. None that ends in the cell in which it
+/// starts can. A ray that passes within r of another axis and ends outside of that lens has passed the foot of the perpendicular
+/// from the axis, at most r away, and from there it moves less than |(ex, ey)|: it ends at most sqrt(r^2 + ex^2 + ey^2) from that
+/// axis.
 template <class F>
 LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F> cell, F x, F y, F ex, F ey, F r) {
     const Vec2<F> axis = axis_of(lattice, cell);
@@ -100,7 +103,7 @@ LFDSIM_FN Mask<F> may_meet_neighbours(const Lattice<Scalar<F>>& lattice, Cell<F>
     return (out_x || out_y) && near;
 }
 
-/// Returns whether a path from one cell to the point (x, y) may pass cells with lenses.
+/// Returns whether a path from a point of the cell `from` to the point (x, y) may pass cells with lenses.
 template <class F>
 LFDSIM_FN Mask<F> may_enter(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, Cell<F> from, F x, F y) {
     const Cell<F> to = cell_at(display.lattice, x, y);
@@ -132,7 +135,8 @@ LFDSIM_FN Hit<F> enter_array(const TracedDisplay<Scalar<F>>& display, const Exte
         const F lx = x - axis.x, ly = across(display.lattice, y - axis.y), r = F(first.semi_aperture);
         hit.ok = hit.ok && (lx * lx + ly * ly <= r * r);
     } else if (facts.plano_convex == Known::yes || display.zone_top > display.zone_bottom) {
-        const F kd = F(display.zone_bottom - display.zone_top) * fall;
+        // The three tests become more expensive from one to the next, and few rays are left for the last.
+        const F kd = F(display.zone_bottom - display.zone_top) * fall;  // path length through the caps' zone
         Mask<F> astray = both(passage.alive, !hit.ok);
         if (LaneTraits<F>::width > 1 || any(astray)) {
             astray = both(astray, may_meet_neighbours(lattice_of<facts>(display), passage.cell, x, y, ray.to.x * kd, ray.to.y * kd,

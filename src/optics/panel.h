@@ -1,4 +1,4 @@
-// The panel: which pixel a ray reaches. Floor 1.
+// The panel: which pixel or subpixel a ray reaches (docs/model.md, "Panel"). Floor 1.
 #pragma once
 #include "optics/lens_array.h"
 #include "optics/traced_display.h"
@@ -39,6 +39,7 @@ struct PanelHit {
 template <bool plain = false, class F>
 LFDSIM_FN PanelPoint<F> panel_point(const TracedDisplay<Scalar<F>>& display, const Lattice<Scalar<F>>& lattice,
                                     const PanelBase<Scalar<F>>& base, Cell<F> cell, F x, F y, F weight, Mask<F> alive) {
+    // From the base lens's axis: ((x, y) + axis_of(cell)) / a, turned to the panel's axes; rows are counted downwards.
     const F k = F(display.pixels_per_mm);
     Vec2<F> at{x * k + cell.i * F(display.pitch_pixels[0]), lattice.strips ? y * k : y * k + cell.j * F(display.pitch_pixels[1])};
     if (lattice.staggered) at.x = at.x + stagger(lattice, cell.j) * k;
@@ -46,12 +47,14 @@ LFDSIM_FN PanelPoint<F> panel_point(const TracedDisplay<Scalar<F>>& display, con
     return {F(base.column_rest) + at.x, F(base.row_rest) - at.y, weight, alive, cell};
 }
 
-/// A place along one axis of the panel, in panel pixels from the base's whole pixel `number`, in its cell.
+/// A place along one axis of the panel (0: columns, 1: rows), in its cell of subpixels.
 template <class F>
 struct InCell {
-    F at;      // the place, as a share of the cell
-    F before;  // pixels from the cell's first to the one that holds the place
+    F at;      // the place, as a share of the cell, in [0, 1)
+    F before;  // number of pixels from the cell's first to the one that holds the place
 
+    /// `place` is in panel pixels from the base's whole pixel `number`. Cells are counted from the panel's first pixel; `number` is
+    /// reduced to its rest in the cell, so that numbers stay small, and the half keeps the floor exact although 1/size is rounded.
     LFDSIM_FN InCell(const SubpixelPart<Scalar<F>>& part, int axis, std::uint32_t number, F place) {
         using S = Scalar<F>;
         const S size = S(part.cell[axis]);
@@ -59,13 +62,16 @@ struct InCell {
         before = from_cell - floor((from_cell + F(S(0.5))) * F(part.per_cell[axis])) * F(size);
         at = (before + (place - whole)) * F(part.per_cell[axis]);
     }
+    /// Returns number modulo cell, in 0 .. cell - 1 also for negative numbers (a base lens beside the panel).
     LFDSIM_FN static std::int32_t rest_of(std::int32_t number, std::int32_t cell) { return (number % cell + cell) % cell; }
     LFDSIM_FN Mask<F> inside(const SubpixelPart<Scalar<F>>& part, int axis) const {
         return (at >= F(part.from[axis])) && (at < F(part.to[axis]));
     }
 };
 
-/// What a subpixel under a point shows, if there is one: the pixel's number x 4 + the channel.
+/// Returns what the subpixel under a point shows: `pixel` is 4 times the panel pixel's number plus the channel, and `weight` is
+/// multiplied by the part's brightness, share / ((to - from)_x (to - from)_y). Between the parts nothing is lit. `column` and `row`
+/// are the panel pixel under the point.
 template <class F>
 LFDSIM_FN PanelHit<F> subpixel_under(const TracedDisplay<Scalar<F>>& display, const PanelBase<Scalar<F>>& base,
                                      const PanelPoint<F>& point, Uint<F> column, Uint<F> row, Mask<F> lit) {
@@ -85,10 +91,11 @@ LFDSIM_FN PanelHit<F> subpixel_under(const TracedDisplay<Scalar<F>>& display, co
     return hit;
 }
 
-/// The pixel under a point. `whole` promises a panel without subpixels.
+/// Returns the pixel or subpixel under a point. `whole` promises a panel whose pixels emit over their whole area.
 template <bool whole = false, class F>
 LFDSIM_FN PanelHit<F> panel_pixel(const TracedDisplay<Scalar<F>>& display, const PanelBase<Scalar<F>>& base,
                                   const PanelPoint<F>& point) {
+    // Unsigned numbers: left of and above the panel they wrap and are larger than its size, too.
     const Uint<F> column = Uint<F>(base.column) + floor_to_int(point.column);
     const Uint<F> row = Uint<F>(base.row) + floor_to_int(point.row);
     const Mask<F> lit = point.alive && (column < Uint<F>(display.columns)) && (row < Uint<F>(display.rows));

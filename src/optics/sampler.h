@@ -20,7 +20,7 @@ LFDSIM_FN U mix(U h) {
     return h ^ (h >> 16);
 }
 
-/// The scramble key of a pixel and dimension. `pixel` = row x width + column of the whole frame.
+/// Returns the scramble key of a pixel and dimension. `pixel` = row x width + column of the whole frame, modulo 2^32.
 template <class F>
 LFDSIM_FN Uint<F> pixel_key(std::uint64_t seed, int dimension, Uint<F> pixel) {
     std::uint64_t h = (seed + 1) * 0x9e3779b97f4a7c15u + std::uint64_t(dimension) * 0xd1b54a32d192ed03u;  // splitmix64
@@ -34,16 +34,17 @@ LFDSIM_FN Uint<F> pixel_key(std::uint64_t seed, int dimension, Uint<F> pixel) {
 template <class F>
 struct Sampler {
     Sampling sampling;
-    int dimensions;  // 0 .. dimensions-1 are in use
-    std::uint32_t sample = 0;
-    Uint<F> key[sampler_dimensions];
+    int dimensions;                                // 0 .. dimensions-1 are in use
+    std::uint32_t sample = 0;                      // number of the present sample
+    Uint<F> key[sampler_dimensions];               // 32 random bits of each pixel and dimension
     std::uint32_t point[sampler_dimensions] = {};  // of the Sobol sequence, common to all pixels
 
     LFDSIM_FN Sampler(Sampling kind, int used, std::uint64_t seed, Uint<F> pixel) : sampling(kind), dimensions(used) {
         for (int d = 0; d < sampler_dimensions; ++d)  // a constant count, so that the keys may stay in registers
             key[d] = d < used ? pixel_key<F>(seed, d, pixel) : Uint<F>(0u);
     }
-    /// The number of dimension d, in [-1, 1].
+    /// Returns the number of dimension d, in [-1, 1]: 32 bits as two's complement, over 2^31. Only numbers of dimensions in use are
+    /// distributed as described above.
     LFDSIM_FN F operator()(int d) const {
         const Uint<F> bits =
             sampling == Sampling::sobol ? key[d] ^ Uint<F>(point[d]) : mix(mix(key[d] + Uint<F>(sample * 0x9e3779b9u)) ^ key[d]);
@@ -53,6 +54,7 @@ struct Sampler {
     LFDSIM_FN void next(const DirectionNumbers& directions) {
         ++sample;
         const int bit = trailing_zeros(sample);
+        // Without pixel filter and pupil there are only two dimensions. Of the others all are advanced, in use or not.
         point[0] ^= directions.v[0][bit];
         point[1] ^= directions.v[1][bit];
         if (dimensions <= 2) return;

@@ -71,8 +71,9 @@ LFDSIM_FN Hit<F> meet_sphere(const Surface& surface, Ray<F> ray) {
     return hit;
 }
 
-/// Intersects rays with a circular cylinder along y'. In projection along y' the ray meets a circle; length2 is the square of its
-/// direction's part in that plane, and the discriminant that of the ray in space.
+/// Intersects rays with a circular cylinder along y'. In projection along y' the ray meets a circle: t is the root next to the
+/// vertex of c l^2 t^2/2 - (d_z - c x d_x) t + c x^2/2 = 0, with length2 = l^2 = d_x^2 + d_z^2. The square root of the discriminant
+/// is the cosine of incidence in space. Rays start as those of meet_sphere().
 template <class F, class Surface>
 LFDSIM_FN Hit<F> meet_round_cylinder(const Surface& surface, Ray<F> ray, F length2) {
     const F c = surface.curvature;
@@ -88,12 +89,14 @@ LFDSIM_FN Hit<F> meet_round_cylinder(const Surface& surface, Ray<F> ray, F lengt
     return hit;
 }
 
-/// Intersects rays with a conic (closed form, then the normal) or an even asphere (Newton's method from the conic; the iteration
-/// stops lane by lane, so that its bits do not depend on neighbouring lanes).
+/// Intersects rays with a conic (closed form) or an even asphere (Newton's method from the conic; the iteration stops lane by lane,
+/// so that its bits do not depend on neighbouring lanes). Rays start as those of meet_sphere(). Docs/model.md, "Refraction", has
+/// the equations and the limits of the iteration.
 template <class F, class Surface>
 LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     const F c = surface.curvature, k1 = F(1) + F(surface.conic);
-    // c/2 (|p|^2 + k z^2) - z = 0 along the ray
+    // The conic is c/2 (|p|^2 + k z^2) - z = 0, so along the ray t = c s^2/(G - sqrt(G^2 - A c s^2)), G = d_z - c (x d_x + y d_y),
+    // A = c (1 + k d_z^2).
     const F cs2 = c * (ray.at.x * ray.at.x + ray.at.y * ray.at.y);
     const F g = ray.to.z - c * (ray.at.x * ray.to.x + ray.at.y * ray.to.y);
     const F a = c * (F(1) + (k1 - F(1)) * ray.to.z * ray.to.z);
@@ -102,6 +105,7 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     F z, d;
     Mask<F> real = disc > F(0);
     Vec3<F> p{};
+    // Moves p to the path length `at`, and z and d to the sag and slope there; returns whether the sheet extends so far.
     auto pose = [&](F at) {
         p = {ray.at.x + ray.to.x * at, ray.at.y + ray.to.y * at, ray.to.z * at};
         Mask<F> sheet;
@@ -113,10 +117,11 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
         // Where the ray misses the conic, start from the vertex plane.
         t = select(real, t, F(0));
         sheet = pose(t);
-        real = sheet || !sheet;
+        real = sheet || !sheet;  // all lanes
         Mask<F> moving = real;
         const F tolerance = F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 1e-6 : 1e-13));
         for (int step = 0; step < 12 && any(moving); ++step) {
+            // Newton's step for h(t) = z - sag, whose derivative along the ray is d_z - d (x d_x + y d_y)
             const F slope = ray.to.z - d * (p.x * ray.to.x + p.y * ray.to.y);
             const F change = (p.z - z) / slope;
             t = select(moving, t - change, t);
@@ -125,6 +130,7 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
         }
         real = sheet && (abs(p.z - z) < F(Scalar<F>(1e-4)));
     }
+    // The unit normal, (-x d, -y d, 1) / sqrt(1 + d^2 s^2)
     const F length2 = F(1) + d * d * (p.x * p.x + p.y * p.y), per_length = F(1) / sqrt(length2);
     const Vec3<F> normal{-(p.x * d) * per_length, -(p.y * d) * per_length, per_length};
     const F cosine = -dot(ray.to, normal);
@@ -133,12 +139,13 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     return hit;
 }
 
-/// Returns the transmitted share 1 - F of a refraction (docs/model.md, "Refraction"). c1: cosine in the medium that the backward
-/// ray comes from (index n1); c2: in the other (n2); c_thin: the one of the two in the less dense medium. schlick_t0 = 1 - R0.
+/// Returns the transmitted share 1 - F of a refraction (docs/model.md, "Refraction"), by Schlick's approximation or, for any other
+/// `fresnel`, exactly; not for Fresnel::none. c1: cosine in the medium that the backward ray comes from (index n1); c2: in the
+/// other (n2); c_thin: the one of the two in the less dense medium. schlick_t0 = 1 - R0.
 template <class F>
 LFDSIM_FN F transmittance(Fresnel fresnel, F schlick_t0, F n1, F n2, F c1, F c2, F c_thin) {
-    if (fresnel == Fresnel::schlick) {  // always the cosine in the less dense medium, whether the ray goes down or up
-        const F q = F(1) - c_thin, q2 = q * q;
+    if (fresnel == Fresnel::schlick) {          // always the cosine in the less dense medium, whether the ray goes down or up
+        const F q = F(1) - c_thin, q2 = q * q;  // 1 - F = (1 - R0) (1 - (1 - cos)^5)
         return schlick_t0 - schlick_t0 * (q2 * q2 * q);
     }
     // Mean of both polarisations: 2 n1 n2 c1 c2 (1/(n1 c1 + n2 c2)^2 + 1/(n1 c2 + n2 c1)^2)

@@ -14,7 +14,7 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 // half as many instructions again.
 
 /// Moves a ray in the first plane, with its direction after the diffuser, to the vertex plane of the first surfaces, and turns its
-/// direction into the array's frame.
+/// direction into the array's frame (its position is in that frame already). Ends rays that do not go down.
 template <Facts facts = Facts{}, class F>
 LFDSIM_FN void to_first_vertex(const TracedDisplay<Scalar<F>>& display, Passage<F>& passage) {
     using S = Scalar<F>;
@@ -33,7 +33,9 @@ LFDSIM_FN void to_first_vertex(const TracedDisplay<Scalar<F>>& display, Passage<
     }
 }
 
-/// Traces a ray from the array's first plane, where it starts with its direction after the diffuser, to the panel.
+/// Traces a ray to the panel. It starts in the first plane, x and y in mm from the base lens's axis in the array's frame, with its
+/// direction after the diffuser in the display's. The weight of the result is the product of all transmittances, times cos^m of the
+/// angle at the panel, m the emission exponent.
 template <Facts facts, class F>
 LFDSIM_FN PanelPoint<F> trace_array(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                     const PanelBase<Scalar<F>>& base, Ray<F> ray, Mask<F> alive) {
@@ -53,22 +55,23 @@ LFDSIM_FN PanelPoint<F> trace_array(const TracedDisplay<Scalar<F>>& display, con
     return trace_opaque<facts>(display, extent, base, passage);
 }
 
-/// trace_array(), compiled as a function of its own.
+/// Does what trace_array() does, compiled as a separate function.
 template <Facts facts, class F>
 LFDSIM_APART PanelPoint<F> trace_apart(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                        const PanelBase<Scalar<F>>& base, const Ray<F>& ray, const Mask<F>& alive) {
     return trace_array<facts>(display, extent, base, ray, alive);
 }
 
-/// trace_array() of any display, which is asked for its facts: for code around few rays, which is compiled once.
+/// Does what trace_array() does, with the display's facts found at run time: for code that traces few rays and is compiled once.
 template <class F>
 inline PanelPoint<F> trace_any(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent,
                                const PanelBase<Scalar<F>>& base, const Ray<F>& ray, const Mask<F>& alive) {
     return with_facts(display, [&]<Facts facts>() { return trace_apart<facts, F>(display, extent, base, ray, alive); });
 }
 
-/// The ray of one sample of each pixel of a packet, in the first plane and after the diffuser; sampler(d) is the sample's number of
-/// dimension d, in [-1, 1].
+/// Computes the ray of one sample of each pixel of a packet, in the first plane and after the diffuser. sampler(d) is the sample's
+/// number of dimension d, in [-1, 1] (docs/model.md, "Sampling"): 0 and 1 turn the ray, 2 and 3 move it within the pixel, 4 and 5
+/// within the pupil.
 template <Facts facts = Facts{}, class F, class Samples>
 LFDSIM_FN void sample_ray(const TracedDisplay<Scalar<F>>& display, const RayOrigin& view, const PixelRays<F>& pixels,
                           const Samples& sampler, Ray<F>& ray) {
@@ -87,7 +90,7 @@ LFDSIM_FN void sample_ray(const TracedDisplay<Scalar<F>>& display, const RayOrig
     if (plain || display.has_diffuser) ray.to = scatter<plain>(display, ray.to, sampler(0), sampler(1));
 }
 
-/// The panel pixel that one sample of each pixel reaches.
+/// Returns the panel pixel that one sample of each pixel reaches, and the share of its light that arrives.
 template <Facts facts, class F, class Samples>
 LFDSIM_FN PanelHit<F> trace(const TracedDisplay<Scalar<F>>& display, const RayOrigin& view, const PixelRays<F>& pixels,
                             const Samples& sampler) {
