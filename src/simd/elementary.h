@@ -5,7 +5,8 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Sine and cosine of |a| <= pi/2; `small` promises |a| <= 0.05, where fewer terms suffice. Error below 1.3e-7 (1e-7).
+/// Computes sine and cosine of |a| <= pi/2, radians, by Taylor's series; `small` promises |a| <= 0.05, where fewer terms suffice.
+/// The error is below 1.3e-7 (1e-7 if `small`).
 template <class F>
 LFDSIM_FN void sincos(F a, bool small, F& sine, F& cosine) {
     if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) {
@@ -32,7 +33,7 @@ LFDSIM_FN void sincos(F a, bool small, F& sine, F& cosine) {
     cosine = F(1) + x * c;
 }
 
-/// Arc tangent; error below 3e-7. Abramowitz and Stegun 4.4.49.
+/// Returns the arc tangent, radians; error below 3e-7 (Abramowitz and Stegun 4.4.49, beyond 1 by atan a = pi/2 - atan(1/a)).
 template <class F>
 LFDSIM_FN F atan(F a) {
     if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) return __builtin_atan(a);
@@ -49,12 +50,12 @@ LFDSIM_FN F atan(F a) {
     return select(a < F(0), -p, p);
 }
 
-/// Base-2 logarithm of a > 0; error below 2e-7 relative to max(1, |result|).
+/// Returns the base-2 logarithm of a > 0; error below 2e-7 relative to max(1, |result|).
 template <class F>
 LFDSIM_FN F log2(F a) {
     if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) return __builtin_log2(a);
     using S = Scalar<F>;
-    // a = m 2^e, m in [sqrt(1/2), sqrt 2)
+    // a = m 2^e, m in [sqrt(1/2), sqrt 2); 0x3f3504f3 is the pattern of sqrt(1/2)
     const Uint<F> bits = float_bits(a) - Uint<F>(0x3f3504f3u);
     const F e = from_int<F>((bits >> 23) - ((bits >> 31) << 9));  // arithmetic shift
     const F m = bits_float<F>((bits & Uint<F>(0x007fffffu)) + Uint<F>(0x3f3504f3u));
@@ -63,20 +64,20 @@ LFDSIM_FN F log2(F a) {
     return e + y * series * F(S(2.8853900817779268));  // 2 / ln 2
 }
 
-/// 2^a for -126 <= a <= 126 (clamped); relative error below 2.5e-7.
+/// Returns 2^a for -126 <= a <= 126 (clamped); relative error below 2.5e-7.
 template <class F>
 LFDSIM_FN F exp2(F a) {
     if constexpr (LaneTraits<F>::width == 1 && sizeof(F) == 8) return __builtin_exp2(a);
     using S = Scalar<F>;
     a = min(max(a, F(S(-126))), F(S(126)));
-    const F whole = floor(a + F(S(0.5))), x = (a - whole) * F(S(0.6931471805599453));
+    const F whole = floor(a + F(S(0.5))), x = (a - whole) * F(S(0.6931471805599453));  // 2^a = 2^whole e^x, |x| <= ln(2)/2
     const F series =
         F(1) +
         x * (F(1) + x * (F(S(0.5)) + x * (F(S(1.0 / 6)) + x * (F(S(1.0 / 24)) + x * (F(S(1.0 / 120)) + x * F(S(1.0 / 720)))))));
     return series * bits_float<F>((to_int(whole) + Uint<F>(127u)) << 23);
 }
 
-/// cos^m for 0 < cos <= 1.
+/// Returns cos^m for 0 < cos <= 1.
 template <class F>
 LFDSIM_FN F power(F cosine, Scalar<F> m) {
     if (m == Scalar<F>(1)) return cosine;
@@ -84,15 +85,15 @@ LFDSIM_FN F power(F cosine, Scalar<F> m) {
     return exp2(F(m) * log2(max(cosine, F(Scalar<F>(1e-30)))));
 }
 
-/// The inverse of the error function on [-1, 1], finite at the ends (|x| is kept at most 1 - 2^-24): M. Giles, "Approximating the
-/// erfinv function", GPU Computing Gems Jade Edition, 2011, single precision; error below 1e-6 relative. For double, two steps of
-/// Newton's method refine it.
+/// Returns the inverse of the error function on [-1, 1], finite at the ends (|x| is kept at most 1 - 2^-24): M. Giles,
+/// "Approximating the erfinv function", GPU Computing Gems Jade Edition, 2011, single precision; error below 1e-6 relative. For
+/// double, two steps of Newton's method refine it.
 template <class F>
 LFDSIM_FN F erfinv(F x) {
     using S = Scalar<F>;
     const F one = F(1);
     x = min(max(x, F(S(-1 + 1.0 / 16777216))), F(S(1 - 1.0 / 16777216)));
-    const F w = log2((one - x) * (one + x)) * F(S(-0.6931471805599453));
+    const F w = log2((one - x) * (one + x)) * F(S(-0.6931471805599453));  // -ln(1 - x^2)
     const F u = w - F(S(2.5)), v = sqrt(max(w, F(0))) - F(S(3));
     auto horner = [](F t, const double* c) {
         F sum = F(S(c[0]));

@@ -12,7 +12,8 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-// What belongs to an F: its scalar, its mask of truth values and its 32-bit unsigned integer.
+/// What belongs to an F: its scalar, its mask of truth values, its 32-bit unsigned integer and its number of lanes. This is that of
+/// float and double; simd.h and pair.h specialise it. Free functions of the same names below call its functions.
 template <class F>
 struct LaneTraits {
     using Scalar = F;
@@ -26,7 +27,7 @@ struct LaneTraits {
         return *from;
     }
     static LFDSIM_FN void store(F a, F* to) { *to = a; }
-    /// The first of a pair of numbers for each lane, of pairs that begin at `from`.
+    /// Returns the first of a pair of numbers for each lane, `pair` being the number of the pair of those that begin at `from`.
     static LFDSIM_FN F gather_pairs(const F* from, std::uint32_t pair) { return from[std::size_t(pair) * 2]; }
     static LFDSIM_FN void load_rows(const F* from, const std::uint32_t* row, F (&to)[4]) {
         for (int k = 0; k < 4; ++k) to[k] = from[std::size_t(row[0]) * 4 + std::size_t(k)];
@@ -39,8 +40,10 @@ using Mask = typename LaneTraits<F>::Mask;
 template <class F>
 using Uint = typename LaneTraits<F>::Uint;
 
+// The functions of an F. Those on float and double are here; simd.h and pair.h have the same for their types.
+
 LFDSIM_FN bool any(bool m) { return m; }
-/// a && b, without a branch where they are single values.
+/// Returns a && b, without a branch where they are single values.
 LFDSIM_FN bool both(bool a, bool b) { return a & b; }
 template <class M>
 LFDSIM_FN M both(const M& a, const M& b) {
@@ -55,7 +58,7 @@ LFDSIM_FN float floor(float a) { return __builtin_floorf(a); }
 LFDSIM_FN double floor(double a) { return __builtin_floor(a); }
 LFDSIM_FN float abs(float a) { return __builtin_fabsf(a); }
 LFDSIM_FN double abs(double a) { return __builtin_fabs(a); }
-// b if either is NaN, as with the SIMD instructions
+// The minimum and maximum are b if either is NaN, as with the SIMD instructions.
 LFDSIM_FN float min(float a, float b) { return a < b ? a : b; }
 LFDSIM_FN std::uint32_t min(std::uint32_t a, std::uint32_t b) { return a < b ? a : b; }
 LFDSIM_FN int min(int a, int b) { return a < b ? a : b; }
@@ -64,14 +67,14 @@ LFDSIM_FN float max(float a, float b) { return a > b ? a : b; }
 LFDSIM_FN int max(int a, int b) { return a > b ? a : b; }
 LFDSIM_FN double max(double a, double b) { return a > b ? a : b; }
 
-/// Do threads that run together wait for each other where they branch apart? A short cut for some of them then gains nothing.
+/// Whether threads that run together wait for each other where they branch apart. A short cut for some of them then gains nothing.
 #ifdef __CUDA_ARCH__
 constexpr bool threads_apart = true;
 #else
 constexpr bool threads_apart = false;
 #endif
 
-/// The number of zeros below the lowest one of a > 0.
+/// Returns the number of zeros below the lowest one of a > 0.
 LFDSIM_FN int trailing_zeros(std::uint32_t a) {
 #ifdef __CUDA_ARCH__
     return __ffs(int(a)) - 1;
@@ -81,13 +84,14 @@ LFDSIM_FN int trailing_zeros(std::uint32_t a) {
 }
 
 #ifdef __CUDA_ARCH__
-// For inverse(), quotient() and root() below.
+// Estimates for inverse(), quotient() and root() below.
 LFDSIM_FN float reciprocal_estimate(float a) {
     float r;
     asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(a));
     return r;
 }
-/// a b + c, rounded once. As text, so that a compiled kernel shows which were meant (tests/cuda/ptx.py).
+/// Returns a b + c, rounded once. It is written as an instruction, so that a compiled kernel shows which fused products were meant
+/// (tests/cuda/ptx.py).
 LFDSIM_FN float fused(float a, float b, float c) {
     float r;
     asm("fma.rn.f32 %0, %1, %2, %3;" : "=f"(r) : "f"(a), "f"(b), "f"(c));
@@ -100,12 +104,12 @@ LFDSIM_FN float inverse_root_estimate(float a) {
 }
 #endif
 
-/// A whole-numbered `a` as 32-bit two's complement; out of range, NaN too, gives 0x80000000.
+/// Returns a whole-numbered `a` as 32-bit two's complement; a number out of range or NaN gives 0x80000000.
 template <class F>
 LFDSIM_FN std::uint32_t to_int(F a) {
     return a >= F(-2147483648.0) && a < F(2147483648.0) ? std::uint32_t(std::int32_t(a)) : 0x80000000u;
 }
-/// floor(a) as to_int() gives it, but that a number that is too large gives on a GPU 0x7fffffff.
+/// Returns floor(a) as to_int() gives it, except that on a GPU a number that is too large gives 0x7fffffff.
 template <class F>
 LFDSIM_FN auto floor_to_int(F a) {
 #ifdef __CUDA_ARCH__
@@ -149,18 +153,20 @@ LFDSIM_FN F root(F a) {
     return sqrt(a);
 }
 
-/// The pattern of a float, for logarithms and powers.
+/// Returns the bit pattern of `a` as a float, for logarithms and powers.
 LFDSIM_FN std::uint32_t float_bits(float a) { return __builtin_bit_cast(std::uint32_t, a); }
 LFDSIM_FN std::uint32_t float_bits(double a) { return __builtin_bit_cast(std::uint32_t, float(a)); }
-/// `a` read as two's complement; read as the pattern of a float; F's lanes from consecutive numbers.
+/// Returns `a`, read as two's complement, as a number.
 template <class F>
 LFDSIM_FN F from_int(Uint<F> a) {
     return LaneTraits<F>::from_int(a);
 }
+/// Returns the float with the bit pattern `a`.
 template <class F>
 LFDSIM_FN F bits_float(Uint<F> a) {
     return LaneTraits<F>::bits_float(a);
 }
+/// Reads F's lanes, or those of its unsigned integer, from consecutive numbers, which need not be aligned.
 template <class F>
 LFDSIM_FN F load(const Scalar<F>* from) {
     return LaneTraits<F>::template load<F>(from);
@@ -170,7 +176,7 @@ LFDSIM_FN Uint<F> load(const std::uint32_t* from) {
     return LaneTraits<F>::template load<Uint<F>>(from);
 }
 
-/// F's lanes to consecutive numbers.
+/// Writes F's lanes to consecutive numbers.
 template <class F>
 LFDSIM_FN void store(F a, Scalar<F>* to) {
     LaneTraits<F>::store(a, to);
@@ -181,7 +187,8 @@ LFDSIM_FN void store(U a, std::uint32_t* to) {
     __builtin_memcpy(to, &a, sizeof a);
 }
 
-/// Reads a row of four numbers for each lane: row[l] of those that begin at `from`. to[k] holds the k-th of each.
+/// Reads a row of four numbers for each lane l, number row[l] of the rows that begin at `from`; to[k] receives the k-th of each
+/// row.
 template <class F>
 LFDSIM_FN void load_rows(const Scalar<F>* from, const std::uint32_t* row, F (&to)[4]) {
     LaneTraits<F>::load_rows(from, row, to);

@@ -7,6 +7,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
+/// The truth values of a pair.
 template <class M>
 struct PairMask {
     M a, b;
@@ -15,8 +16,9 @@ struct PairMask {
     friend LFDSIM_FN PairMask operator!(PairMask x) { return {!x.a, !x.b}; }
 };
 
+/// The 32-bit unsigned integers of a pair; they wrap.
 template <class U>
-struct PairUint {  // wraps
+struct PairUint {
     U a, b;
     PairUint() = default;
     LFDSIM_FN PairUint(U x, U y) : a(x), b(y) {}
@@ -31,6 +33,7 @@ struct PairUint {  // wraps
     friend LFDSIM_FN PairUint operator<<(PairUint x, int s) { return {x.a << s, x.b << s}; }
 };
 
+/// An F (lane.h) of twice as many lanes: those of `a`, then those of `b`.
 template <class H>
 struct LanePair {
     H a, b;

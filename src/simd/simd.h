@@ -9,23 +9,26 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
+/// The compilers' vectors of N numbers. GCC 12 accepts a vector_size that depends on N only inside a separate struct.
 template <int N>
-struct Vectors {  // GCC 12 accepts a dependent vector_size only inside a struct of its own
+struct Vectors {
     typedef float Float __attribute__((vector_size(4 * N)));
     typedef std::uint32_t Uint __attribute__((vector_size(4 * N)));
     typedef std::int32_t Int __attribute__((vector_size(4 * N)));
 };
 
+/// Truth values of N lanes.
 template <int N>
 struct LaneMask {
-    typename Vectors<N>::Int v;  // -1 or 0
+    typename Vectors<N>::Int v;  // all bits of a lane are set, or none
     friend LFDSIM_FN LaneMask operator&&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
     friend LFDSIM_FN LaneMask operator||(LaneMask a, LaneMask b) { return {a.v | b.v}; }
     friend LFDSIM_FN LaneMask operator!(LaneMask a) { return {~a.v}; }
 };
 
+/// N 32-bit unsigned integers; they wrap.
 template <int N>
-struct LaneUint {  // wraps
+struct LaneUint {
     typename Vectors<N>::Uint v;
     LaneUint() = default;
     LFDSIM_FN LaneUint(typename Vectors<N>::Uint a) : v(a) {}
@@ -40,6 +43,7 @@ struct LaneUint {  // wraps
     friend LFDSIM_FN LaneUint operator<<(LaneUint a, int s) { return a.v << s; }
 };
 
+/// N floats, an F (lane.h). A comparison with NaN is false.
 template <int N>
 struct Lane {
     typename Vectors<N>::Float v;
@@ -92,7 +96,8 @@ struct LaneTraits<Lane<N>> {
         return to;
 #endif
     }
-    // A row of four is read into a quarter of a register, and the quarters' rows become columns.
+    // Four rows, of lanes l .. l + 3, are read into the same four lanes of four registers; then each block of four by four numbers
+    // is transposed.
     static LFDSIM_FN void load_rows(const float* from, const std::uint32_t* row, Lane<N> (&to)[4]) {
         typename Vectors<N>::Float rows[4];
         for (int k = 0; k < 4; ++k)
@@ -113,7 +118,8 @@ struct LaneTraits<Lane<N>> {
         constexpr int from[4] = {of...};
         return __builtin_shufflevector(a, b, (from[lane % 4] % 4 + lane / 4 * 4 + from[lane % 4] / 4 * N)...);
     }
-    /// Each quarter of the result takes these of the same quarters' numbers: 0 to 3 of a, 4 to 7 of b.
+    /// Returns a register in which each block of four lanes takes the numbers `of` from the same block of a (0 to 3) and b (4 to
+    /// 7).
     template <int... of, class V>
     static LFDSIM_FN V quarters(V a, V b) {
         if constexpr (N == 4) return shuffled<of...>(a, b, Numbers<0, 1, 2, 3>());
@@ -139,7 +145,7 @@ LFDSIM_FN Lane<N> abs(Lane<N> a) {
     return __builtin_bit_cast(typename Vectors<N>::Float, __builtin_bit_cast(typename Vectors<N>::Uint, a.v) & 0x7fffffffu);
 }
 template <int N>
-LFDSIM_FN LaneUint<N> to_int(Lane<N> a) {  // x86 converts what is out of range to 0x80000000
+LFDSIM_FN LaneUint<N> to_int(Lane<N> a) {  // x86 converts a number out of range to 0x80000000
     return (typename Vectors<N>::Uint) __builtin_convertvector(a.v, typename Vectors<N>::Int);
 }
 template <int N>
@@ -163,7 +169,7 @@ LFDSIM_FN bool any(LaneMask<4> m) { return _mm_movemask_ps((__m128)m.v) != 0; }
 LFDSIM_FN Lane<4> sqrt(Lane<4> a) { return (Vectors<4>::Float)_mm_sqrt_ps((__m128)a.v); }
 LFDSIM_FN Lane<4> min(Lane<4> a, Lane<4> b) { return (Vectors<4>::Float)_mm_min_ps((__m128)a.v, (__m128)b.v); }
 LFDSIM_FN Lane<4> max(Lane<4> a, Lane<4> b) { return (Vectors<4>::Float)_mm_max_ps((__m128)a.v, (__m128)b.v); }
-LFDSIM_FN Lane<4> floor(Lane<4> a) {  // SSE2 cannot round: truncate and correct; from 2^23 up every float is whole
+LFDSIM_FN Lane<4> floor(Lane<4> a) {  // SSE2 cannot round: it truncates, then corrects; from 2^23 up every float is whole
     const Lane<4> t = from_int<Lane<4>>(to_int(a));
     return select(abs(a) < Lane<4>(8388608.0f), t - select(t > a, Lane<4>(1.0f), Lane<4>(0.0f)), a);
 }

@@ -22,7 +22,7 @@ struct alignas(16) LightSums {
         return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}};
     }
 };
-// As one load of 16 bytes; a copy by memcpy would be 16 of one byte.
+// This is one load of 16 bytes; a copy by memcpy would be 16 loads of one byte.
 LFDSIM_FN LightSums load_sums(const std::uint32_t* from) {
     const uint4 v = *reinterpret_cast<const uint4*>(from);
     return {{v.x, v.y, v.z, v.w}};
@@ -34,13 +34,15 @@ LFDSIM_FN Texel texel_of(LightSums a) {
 typedef float Texel __attribute__((vector_size(16)));
 LFDSIM_FN void store_texel(Texel texel, float (&to)[4]) { __builtin_memcpy(to, &texel, sizeof texel); }
 
+/// Entries of a summed-area table, or their differences, in its units.
 typedef std::uint32_t LightSums __attribute__((vector_size(16)));  // each modulo 2^32
 LFDSIM_FN LightSums load_sums(const std::uint32_t* from) {
     LightSums sums;
     __builtin_memcpy(&sums, from, sizeof sums);
     return sums;
 }
-/// Sums of light that are differences modulo 2^32, as light: two's complement.
+/// Returns sums of light that are differences modulo 2^32 as floats, in the table's units: read as two's complement, they are right
+/// while the true sum is below 2^31.
 LFDSIM_FN Texel texel_of(LightSums a) {
     typedef std::int32_t Signed __attribute__((vector_size(16)));
     return __builtin_convertvector((Signed)a, Texel);
