@@ -28,7 +28,8 @@ namespace {
 constexpr int tile_width = 64, tile_height = 16;  // neighbouring pixels see nearby panel pixels: a tile's texels stay in the cache
 constexpr int most_threads = 1024;
 
-/// paint(tile) for each tile of the crop, on all threads; it returns the samples that it took, or nothing where it was stopped.
+/// Calls paint(tile) for each tile of the crop, on all threads of the arena; it returns the samples that it took, or nothing where
+/// it was stopped. Returns the sum of the samples.
 template <class Paint>
 Done for_tiles(const Tile& whole, Job& job, const Paint& paint) {
     std::atomic<std::int64_t> taken{0};
@@ -56,7 +57,7 @@ Done for_tiles(const Tile& whole, Job& job, const Paint& paint) {
     return {taken, complete};
 }
 
-/// Renders by the estimator of the work's tile.
+/// Renders by the estimator of the work's tile, or until the target error is reached.
 Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
     return on_threads(threads, [&] {
         return for_tiles(work.tile, job, [&](const Tile& tile) -> std::optional<std::int64_t> {
@@ -68,9 +69,10 @@ Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
     });
 }
 
-/// Each region by what is chosen for it.
+/// Renders each region of the frame by what is chosen for it (docs/model.md, "What a default picture is made of").
 Done render_chosen(Kernel kernel, int threads, EstimatorChoice& choice, Job& job) {
     return on_threads(threads, [&]() -> Done {
+        // The regions that the crop meets. A tile lies in one of them, as a region's side is a multiple of a tile's.
         Work& work = choice.work();
         const Tile& whole = work.tile;
         constexpr int side = EstimatorChoice::region_side;
@@ -80,6 +82,7 @@ Done render_chosen(Kernel kernel, int threads, EstimatorChoice& choice, Job& job
         const auto region_of = [&](const Tile& tile) {
             return std::size_t((tile.y0 / side - top) * columns + tile.x0 / side - left);
         };
+        // Each region's choice, then its tiles
         choice.look(kernel);
         tbb::parallel_for(0, columns * rows, [&](int k) {
             if (!job.cancelled()) chosen[std::size_t(k)] = choice.choose(kernel, left + k % columns, top + k / columns);
@@ -96,6 +99,7 @@ Done render_chosen(Kernel kernel, int threads, EstimatorChoice& choice, Job& job
                                 (tile.x1 - tile.x0) * 3, float(of.error));
             return choice.render(kernel, of, tile);
         });
+        // The share by points, and the root mean square of the errors measured, of the crop's pixels
         double by_points = 0, squares = 0;
         for (std::size_t k = 0; k < chosen.size(); ++k) {
             done.samples += chosen[k].samples;
@@ -114,7 +118,7 @@ void check_threads(const RenderOptions& options) {
         throw InputError("--threads", fmt::format("{}; allowed: 1 to {}, or 0 for all", options.threads, most_threads));
 }
 
-/// Runs `run` and stores its samples and its time in the work's result.
+/// Runs `run` and stores its samples and its time in the work's result; false: `run` returned nothing.
 template <class Run>
 bool timed(Work& work, const RenderOptions& options, const Run& run) {
     work.make_pictures(options.target_error.has_value());
@@ -138,7 +142,7 @@ Rendering render(Work& work, const char* kernel_name, Kernel kernel, const Rende
     return std::move(work.result);
 }
 
-/// Renders by points on the GPU; nothing where the CPU is to render it. The job's stage is the caller's.
+/// Renders by points on the GPU; returns nothing where the CPU is to render it. The job's stage is the caller's.
 std::optional<Rendering> render_points_on_gpu(Work& work, const ChosenDevice& device, const SummedPanel* summed,
                                               const std::vector<optics::SummedImage>& planes, const RenderOptions& options,
                                               Job& job) {
@@ -153,7 +157,7 @@ std::optional<Rendering> render_points_on_gpu(Work& work, const ChosenDevice& de
     return std::move(work.result);
 }
 
-/// Each region by the estimator that a measurement chooses. The job's stage is the caller's.
+/// Renders each region by the estimator that a measurement chooses. The job's stage is the caller's.
 Rendering render_chosen(EstimatorChoice& choice, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
     timed(choice.work(), options, [&](Rendering& result) -> std::optional<Done> {
         result.kernel = kernel_name;
@@ -167,10 +171,10 @@ void begin_stage(const Work& work, std::size_t pictures, Job& job) {
     job.stage("rendering", std::int64_t(work.tile.x1 - work.tile.x0) * (work.tile.y1 - work.tile.y0) * std::int64_t(pictures));
 }
 
-/// A weighted sum of pictures.
+/// A weighted sum of pictures. Errors are added by their squares, as those of independent pictures.
 class Sum {
   public:
-    /// Adds to one channel, or to all of them.
+    /// Adds a picture to one channel, 0 .. 2, or to all of them.
     void add(Rendering&& one, float weight, std::optional<std::size_t> channel = {}) {
         if (sum_.image.rgb.empty()) {
             sum_.image = Image(one.image.width, one.image.height);
@@ -198,7 +202,7 @@ class Sum {
     }
     bool complete() const { return sum_.complete; }
     Rendering take() { return std::move(sum_); }
-    /// The unfinished picture, scaled to the brightness of the whole.
+    /// Returns the unfinished picture, scaled to the brightness of the whole; `weight` is the sum of the weights so far.
     Rendering take_unfinished(float weight) {
         for (float& light : sum_.image.rgb) light /= weight;
         for (float& error : sum_.error.rgb) error /= weight;
@@ -218,6 +222,9 @@ class Sum {
     std::array<double, 3> measured_{};  // error of each channel
 };
 
+/// Renders a display on the device that the options choose: a picture for each wavelength of each channel where it disperses, and
+/// of each of these one for each box that a gaussian diffuser consists of. `summed`: the panel of the planes, if it outlives the
+/// call, so that a GPU may keep it.
 Rendering render(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& planes,
                  const SummedPanel* summed, const RenderOptions& options, Job& job) {
     const KernelEntry& kernel = choose_kernel(options.kernel);
@@ -232,7 +239,7 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
             Work work(by_points(display), there, planes, options);
             begin_stage(work, 1, job);
             if (auto one = render_points_on_gpu(work, device, summed, planes, options, job)) return *std::move(one);
-            return render(work, kernel.name, kernel.run, options, job);  // the same bits
+            return render(work, kernel.name, kernel.run, options, job);  // by points, too: the same bits as on the GPU
         }
         if (estimator_of(display) == Estimator::filtered && !options.rough) {
             EstimatorChoice choice(display, there, planes, options);
@@ -253,7 +260,7 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
         return sum.take();
     };
     if (!disperses(display)) return at_wavelength(geometry);
-    // Each channel is a picture of the display as it is at its wavelengths.
+    // Each channel is the sum of pictures at its wavelengths (docs/model.md, "Colour").
     Sum sum;
     for (std::size_t channel = 0; channel < 3 && sum.complete(); ++channel)
         for (const Node& node : wavelengths_of(display, int(channel)))

@@ -14,6 +14,7 @@
 
 namespace lfdsim {
 
+/// How a picture is rendered. Threads and kernel change no bit of it; `device` may, as a GPU renders by points.
 struct RenderOptions {
     int threads = 0;           // 0: all
     std::string kernel;        // scalar | baseline | avx2 | avx512; empty: LFDSIM_KERNEL, else the best this machine has
@@ -23,6 +24,7 @@ struct RenderOptions {
     bool rough = false;  // filtered estimator: filtered light whose error is not measured, in larger blocks; for moving pictures
 };
 
+/// A picture, and how it was rendered.
 struct Rendering {
     Image image;                             // linear light, crop's or camera's size
     Image error;                             // estimated standard error of each pixel, where a target was given
@@ -39,17 +41,18 @@ struct Rendering {
     double gpu_seconds = 0;                  // of the GPU alone, by its clock
 };
 
-/// Kernels compiled in, best first, with whether this machine can run them.
+/// A kernel that is compiled in.
 struct KernelInfo {
     std::string name;
-    bool available;
-    int lanes;
+    bool available;  // this machine can run it
+    int lanes;       // pixels of a packet
 };
+/// Returns the kernels that are compiled in, best first.
 std::vector<KernelInfo> kernels();
 
-/// The picture of a valid display that shows `panel` (of the panel's size). The same input and seed give the same bits with any
-/// number of threads, kernel and crop. Throws InputError for a bad kernel, crop, thread count, target error, number of samples
-/// or panel size.
+/// Returns the picture of a valid display that shows `panel` (of the panel's size). The same input and seed give the same bits with
+/// any number of threads, kernel and crop. A job that is cancelled gives an incomplete picture. Throws InputError for a bad kernel,
+/// device, crop, thread count, target error, number of samples or panel size, std::runtime_error where a GPU that was named fails.
 Rendering render(const Display&, const Geometry&, const Texels& panel, const RenderOptions&, Job&);
 
 /// Renders a prepared panel, which serves several views of one panel image.
