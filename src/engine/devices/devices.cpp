@@ -56,7 +56,7 @@ const KernelEntry& choose_kernel(const std::string& wanted) {
 
 namespace {
 
-// The number of "cuda:N", "cuda" alone being 0.
+/// Returns the N of "cuda:N", 0 for "cuda", nothing for any other word.
 std::optional<int> gpu_number(const std::string& word) {
     if (word == "cuda") return 0;
     if (word.rfind("cuda:", 0) != 0) return {};

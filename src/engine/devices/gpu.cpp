@@ -15,16 +15,17 @@ namespace {
 // Pictures that a GPU works on at a time: while one is fetched the other is computed.
 constexpr int pictures_at_once = 2;
 
+/// A GPU's queues: at most pictures_at_once, opened as they are needed and lent to one thread at a time.
 struct GpuInUse {
-    std::mutex mutex;
+    std::mutex mutex;  // of all members but `failed`
     std::condition_variable given_back;
     std::vector<std::unique_ptr<wide::Queue>> idle;
-    int open = 0;
-    std::atomic<bool> failed = false;
-    std::string given_up;  // why the CPU first did its work; empty: it did not
+    int open = 0;                      // number of queues, idle and lent
+    std::atomic<bool> failed = false;  // from then on the CPU does its work, unless the user insists
+    std::string given_up;              // why the CPU first did its work; empty: it did not
 };
 
-// Never destroyed: panels may outlive static objects, and the driver frees everything.
+/// The GPUs in use, by number. The object is never destroyed: panels may outlive static objects, and the driver frees everything.
 struct GpusInUse {
     std::mutex mutex;
     std::map<int, GpuInUse> all;
@@ -40,7 +41,7 @@ GpuInUse& gpu_in_use(int number) {
     return gpus.all[number];
 }
 
-// A queue of the GPU, given back at the end.
+/// A queue of the GPU, given back at the end. The constructor waits while all are lent.
 class Loan {
   public:
     Loan(GpuInUse& gpu, int number) : gpu_(gpu) {
@@ -70,7 +71,7 @@ struct DoesNotFit : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The copy on GPU `number`, or what make() returns.
+/// Returns the copy on GPU `number`, which make() makes at the first call. The caller holds the copies' mutex.
 template <class Copies, class Make>
 auto& copy_on(Copies& copies, int number, Make make) {
     auto kept = copies.copies.find(number);
@@ -78,7 +79,7 @@ auto& copy_on(Copies& copies, int number, Make make) {
     return kept->second;
 }
 
-/// The panel on GPU `number`, where it fits beside so many bytes more.
+/// Returns the panel on GPU `number`. Throws DoesNotFit where it does not fit there together with `more` bytes.
 const wide::DevicePanel& panel_on(wide::Queue& queue, int number, GpuPanels& panels, const std::vector<optics::SummedImage>& planes,
                                   std::size_t more) {
     const std::lock_guard lock(panels.mutex);
@@ -89,7 +90,8 @@ const wide::DevicePanel& panel_on(wide::Queue& queue, int number, GpuPanels& pan
     return copy_on(panels, number, [&] { return wide::DevicePanel(queue, planes[0]); });
 }
 
-/// do_it(queue) in a queue of the GPU; nothing where the CPU is to do it.
+/// Returns do_it(queue), with a queue of the GPU; nothing where the GPU fails and the CPU is to do the work. Where the user insists
+/// on the GPU, it throws instead.
 template <class Do>
 auto on_gpu(const ChosenDevice& device, Do do_it) -> std::optional<decltype(do_it(std::declval<wide::Queue&>()))> {
     GpuInUse& gpu = gpu_in_use(*device.gpu);
@@ -163,6 +165,7 @@ std::optional<GpuComparison> compare_on_gpu(const ChosenDevice& device, const Su
         wide::ViewComparison comparison(queue, *photograph, expected.screen, expected.content);
         const wide::Buffer<float> view(queue, image.rgb.size());
         const Done done = wide::render_there(queue, *panel, work.tile, view.get(), job);
+        // The view is rendered where it is compared; only sums come back.
         GpuComparison result{{}, {}};
         if (done.complete) result.likeness = comparison.with(view.get(), gain);
         result.run = {queue.name(), queue.seconds() - before, done};

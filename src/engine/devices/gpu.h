@@ -21,12 +21,14 @@ namespace lfdsim {
 /// The result of the first cuda::find(), which takes a while.
 const cuda::GpuSearch& found_gpus();
 
-/// Why the CPU has done a GPU's work in this process so far: the first reason for each GPU, with its name. Empty: it has not.
+/// Returns why the CPU has done a GPU's work in this process so far: the first reason for each GPU, with its name; empty if it has
+/// not.
 std::vector<std::string> gpus_given_up();
 
+/// What a GPU has done for a picture.
 struct GpuRun {
-    std::string name;
-    double seconds;  // by the GPU's clock
+    std::string name;  // of the GPU, as in "cuda:0, NVIDIA H100"
+    double seconds;    // by the GPU's clock
     Done done;
 };
 
@@ -37,16 +39,17 @@ struct GpuRun {
 std::optional<GpuRun> render_on_gpu(const ChosenDevice&, const SummedPanel* summed, const std::vector<optics::SummedImage>&, Work&,
                                     Job&);
 
-/// Renders on the GPU, where the picture is compared and from where it is not transferred. The work's picture is not touched;
-/// it has no target error.
+/// A picture that was rendered and compared with a photograph on a GPU.
 struct GpuComparison {
     GpuRun run;
     Likeness likeness;  // where the run is complete
 };
+/// Renders on the GPU and compares the picture there, times `gain`, with what is expected; the picture is not transferred. The work
+/// has no target error. Returns nothing, and throws, as render_on_gpu().
 std::optional<GpuComparison> compare_on_gpu(const ChosenDevice&, const SummedPanel&, const std::vector<optics::SummedImage>&,
                                             const Expected&, float gain, const Work&, Job&);
 
-/// Copies of something on GPUs, by number.
+/// The copies of a panel or a photograph that GPUs hold, by the GPU's number. The mutex is held while `copies` is used.
 template <class Copy>
 struct GpuCopies {
     std::mutex mutex;

@@ -6,15 +6,14 @@
 
 namespace lfdsim {
 
-/// Where a ray ends: a panel pixel, row x columns + column (on a panel with subpixels four times that, plus the channel of which
-/// alone there is light, 3: all), and the share of its light that the ray carries. share 0: the ray ends on none.
+/// Where a ray ends on the panel.
 struct PanelRay {
-    std::uint32_t place;
-    float share;
+    std::uint32_t place;  // panel pixel, row x columns + column; with subpixels four times that plus the one lit channel (3: all)
+    float share;          // of the pixel's light that the ray carries; 0: the ray ends on none
 };
 
-/// A tile of the picture: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. Pixel (x, y) goes to
-/// out[((y - crop_y) crop_width + x - crop_x) 3].
+/// A tile of the picture and how it is rendered: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. The light of pixel (x, y) goes
+/// to out[((y - crop_y) crop_width + x - crop_x) 3], three floats, linear light.
 struct Tile {
     const optics::TracedDisplay<float>* display;
     const optics::RayOrigin* view;
@@ -25,16 +24,16 @@ struct Tile {
     PanelRay* rays = nullptr;  // points: kept here, `samples` for each of the crop's pixels, in place of their light in `out`
     std::int32_t crop_x, crop_y, crop_width;
     std::int32_t x0, y0, x1, y1;
-    std::uint32_t samples;
-    int strata;         // rows and columns of strata, 1 .. max_strata - more_strata; 0: point samples
-    bool lens_by_lens;  // else by blocks that share rays
-    int block_side;     // of these: pixels, 16, 8 or 4
-    bool cuts_pixel;    // lens by lens: outlines of lenses cut the pixel's area, not the diffuser's angles
+    std::uint32_t samples;  // a pixel, where it is rendered by points
+    int strata;             // rows and columns of strata, 1 .. max_strata - more_strata; 0: point samples
+    bool lens_by_lens;      // else by blocks that share rays
+    int block_side;         // of these: pixels, 16, 8 or 4
+    bool cuts_pixel;        // lens by lens: outlines of lenses cut the pixel's area, not the diffuser's angles
     Sampling sampling;
-    int dimensions;  // of the sampler, those in use
+    int dimensions;  // number of the sampler's dimensions in use
 };
 
-/// Errors are estimated for squares of the frame of this many pixels a side (refine.h).
+/// The side, pixels, of the squares of the frame that are rendered until their error is small enough (refine.h).
 constexpr int refined_side = 16;
 
 /// How far the work on a picture got.
@@ -43,14 +42,15 @@ struct Done {
     bool complete;  // false: the job was cancelled on the way
 };
 
-constexpr int max_strata = 64;  // rows or columns of them, those at borders of lenses included
-constexpr int more_strata = 2;  // at most, at borders of lenses
-constexpr int few_strata = 8;   // up to so many the filtered estimator prefers speed, above that accuracy
+constexpr int max_strata = 64;  // most rows or columns of strata, those added at borders of lenses included
+constexpr int more_strata = 2;  // most rows or columns that are added at borders of lenses
+constexpr int few_strata = 8;   // up to this number along an axis the filtered estimator prefers speed, above it accuracy
 
 /// Memory for what a block of the filtered estimator works on, some megabytes, which is too much for a thread's stack. It belongs
 /// to the calling thread, until that ends, and is not cleared; the next call returns the same. Throws std::bad_alloc.
 void* block_memory(std::size_t bytes);
 
+/// A function that renders a tile on the calling thread. All kernels give the same bits.
 using Kernel = void (*)(const Tile&);
 
 void render_tile_scalar(const Tile&);

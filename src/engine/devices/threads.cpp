@@ -17,12 +17,14 @@ namespace {
 constexpr std::size_t stack_bytes = 4 << 20;  // of a worker of TBB
 constexpr int spare = 3;                      // for a picture made ahead, writers of files, and the process that reads a model
 
+/// Returns the number of threads of this process, as the system counts them.
 std::ptrdiff_t tasks() {
     std::error_code error;
     return std::distance(std::filesystem::directory_iterator("/proc/self/task", error), {});
 }
 
-/// A thread that was joined still counts for a moment, in which another one would be refused.
+/// Waits until the system counts no more than `before` threads, 100 ms at most: a thread that was joined still counts for a moment,
+/// in which another one would be refused.
 void wait_for_release(std::ptrdiff_t before) {
     using namespace std::chrono_literals;
     for (int k = 0; k < 100 && tasks() > before; ++k) std::this_thread::sleep_for(1ms);
@@ -32,6 +34,7 @@ void wait_for_release(std::ptrdiff_t before) {
 }  // namespace
 
 int threads_to_be_had(int wanted) {
+    // Each thread waits for `end` and hands it on to the next, so that all of them exist at once.
     std::binary_semaphore end(0);
     const auto wait = [](void* until) -> void* {
         auto& semaphore = *static_cast<std::binary_semaphore*>(until);
@@ -56,7 +59,7 @@ int threads_to_be_had(int wanted) {
 void use_only_threads_to_be_had() {
     const int wanted = tbb::info::default_concurrency() - 1 + spare, had = threads_to_be_had(wanted);
     if (had >= wanted) return;
-    // For as long as the process lives: when a limit ends, TBB starts threads.
+    // The limit is never destroyed: when it ends, TBB starts threads.
     static_cast<void>(
         new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(1 + std::max(had - spare, 0))));
 }

@@ -3,8 +3,8 @@
 
 namespace lfdsim {
 
-/// Threads that can be started now besides the calling one, at most `wanted`: tried, because limits on processes, groups of
-/// processes and address space all count.
+/// Returns the number of threads that can be started now besides the calling one, at most `wanted`. It starts them to find out,
+/// because limits on processes, groups of processes and address space all count.
 int threads_to_be_had(int wanted);
 
 /// Limits work to as many threads as there can be: libraries wait for ever, or give up, for one that the system refuses. Where
