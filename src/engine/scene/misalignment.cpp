@@ -13,8 +13,9 @@
 namespace lfdsim {
 namespace {
 
-/// The extremes over all lenses.
+/// The extremes of the errors over all lenses.
 struct Extremes {
+    // Largest displacement aside, least and greatest height, mm; largest |tilt_x| + |tilt_y|, radians; least and greatest 1 + e
     double aside = 0, low = 0, high = 0, tilt = 0, curvature[2] = {1, 1};
 
     void add(const LensError& e) {
@@ -34,7 +35,8 @@ optics::MisalignedLens<S> placed(const LensError& e) {
             {S(std::cos(x)), S(std::sin(x)), S(std::cos(y)), S(std::sin(y))}};
 }
 
-/// Lowest and highest sag of a surface, whatever the lens's curvature is.
+/// Returns the lowest and the highest sag of a surface over all lenses, mm from its vertex. Sag is monotonic in the curvature, so
+/// the least and the greatest curvature bound it.
 std::array<double, 2> sags(const PlacedSurface& surface, const Extremes& all) {
     std::array<double, 2> range{0, 0};
     if (surface.form == SurfaceForm::thin) return range;
@@ -47,7 +49,7 @@ std::array<double, 2> sags(const PlacedSurface& surface, const Extremes& all) {
     return range;
 }
 
-/// z of the highest rim of lenses that are so much more curved, from the vertex plane.
+/// Returns z of the highest rim of a lens whose curvatures are multiplied by `factor`, mm from the vertex plane.
 double highest_rim_mm(const Geometry& g, double factor) {
     double rim = -infinity;
     for (const PlacedSurface& s : g.surfaces)
@@ -73,7 +75,8 @@ std::vector<LensError> lenses_as_built(const Display& d, const Lattice<double>& 
     return all;
 }
 
-// Rz^-1 Ry Rx Rz: x' of the turned frame is at the array's turn from the panel's x axis, about which the wedge is.
+// The wedge is about the panel's axes, the frame of the tracer is turned about z: its matrix there is Rz^-1 Ry Rx Rz, Rz the
+// array's rotation.
 void wedge_of(const Errors& e, const Geometry& g, double (&wedge)[3][3]) {
     const double cx = std::cos(e.wedge_deg[0] * degree), sx = std::sin(e.wedge_deg[0] * degree),
                  cy = std::cos(e.wedge_deg[1] * degree), sy = std::sin(e.wedge_deg[1] * degree);
@@ -95,6 +98,7 @@ void place_lenses(const Display& d, const Geometry& g, StoredDisplay<S>& scene) 
     misaligned.given = is_irregular(d.errors);
     if (!misaligned.given) return;
 
+    // The poses, and how far they differ
     Extremes all;
     if (lenses_differ(d.errors)) {
         const std::vector<LensError> errors = lenses_as_built(d, g.lattice);
@@ -116,6 +120,7 @@ void place_lenses(const Display& d, const Geometry& g, StoredDisplay<S>& scene) 
     wedge_of(d.errors, g, wedge);
     for (int k = 0; k < 9; ++k) misaligned.wedge[k / 3][k % 3] = S(wedge[k / 3][k % 3]);
 
+    // The range of z in which rays meet the first surface of a lens at its lattice position
     if (misaligned.curved && !scene.ideal)
         for (int k = 0; k < scene.surface_count; ++k) {
             const auto [lowest, highest] = sags(g.surfaces[g.surfaces.size() - 1 - std::size_t(k)], all);
@@ -131,7 +136,8 @@ void place_lenses(const Display& d, const Geometry& g, StoredDisplay<S>& scene) 
         top = std::max(top, highest);
         bottom = lowest;
     }
-    // Turned about its vertex a lens swings aside by what it reaches below that, and up and down by what it reaches aside.
+    // Tilted by t about its vertex, a lens moves aside by sin(t) times what it extends above or below that, and up and down by
+    // sin(t) times its semi-aperture.
     const double swing = std::sin(all.tilt) * std::max(std::abs(top), std::abs(bottom)),
                  sway = std::sin(all.tilt) * first.semi_aperture_mm;
     constexpr double rounding = 1e-4;  // mm, of single precision near a lens

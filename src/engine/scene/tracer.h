@@ -1,4 +1,4 @@
-// A picture rendered by the caller's own kernel. Floor 2.
+// A picture rendered by a kernel that the caller supplies. Floor 2.
 #pragma once
 #include "engine/devices/kernel.h"
 #include "engine/render.h"

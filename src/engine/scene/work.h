@@ -9,13 +9,14 @@
 
 namespace lfdsim {
 
-/// Throws InputError for a bad crop, target error, number of samples or panel size.
+/// What a kernel or a GPU needs to render a picture. Its tile points into it, so it is not copied.
 struct Work {
+    /// The panel's images must outlive the work. Throws InputError for a bad crop, target error, number of samples or panel size.
     Work(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
     Work(const Work&) = delete;
     Work& operator=(const Work&) = delete;
 
-    /// Makes black pictures of the crop's size, to which the tile is then rendered.
+    /// Makes a black picture of the crop's size, to which the tile is then rendered, and another for errors if wanted.
     void make_pictures(bool with_error);
 
     Rendering result;  // estimator; pictures once they are made
