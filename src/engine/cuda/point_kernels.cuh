@@ -14,6 +14,7 @@ namespace {
 /// (docs/gpu.md).
 constexpr int least_blocks = 6;
 
+/// Computes one item of the frame in each thread. `row` is a row of optics::Specialisations.
 template <int row, bool sobol>
 __global__ void __launch_bounds__(threads, least_blocks)
     point_kernel(const __grid_constant__ wide::Frame frame, std::int64_t items) {

@@ -1,4 +1,4 @@
-// The GPU's kernels of point samples. Those of each sampler have a file of their own, so that both are compiled at once. Floor 2.
+// The GPU's kernels of point samples. Those of each sampler are a separate file, so that both are compiled at once. Floor 2.
 #pragma once
 #include "engine/wide/frame.h"
 
@@ -11,9 +11,10 @@ namespace lfdsim::cuda {
 
 constexpr int threads = 128;  // of a thread block
 
+/// Returns the number of thread blocks for items, one for each thread.
 inline unsigned thread_blocks(std::int64_t items) { return unsigned((items + threads - 1) / threads); }
 
-/// One kernel for each row of optics::Specialisations.
+/// The kernels of a sampler, Sobol's or random points: one for each row of optics::Specialisations.
 template <bool sobol>
 struct PointKernels {
     /// Starts the kernel of the frame's display for `items` > 0 items; cudaGetLastError() tells whether it could.

@@ -11,6 +11,7 @@ namespace lfdsim::cuda {
 
 namespace {
 
+/// Throws DeviceError, which says what was being done, unless a call succeeded.
 void check(cudaError_t result, const char* doing) {
     if (result == cudaSuccess) return;
     cudaGetLastError();  // clears it
@@ -23,8 +24,10 @@ __global__ void __launch_bounds__(threads) likeness_kernel(const __grid_constant
     if (i < items) wide::likeness_item<step>(frame, i);
 }
 
+/// Returns a version of CUDA, 1000 major + 10 minor, as "major.minor".
 std::string text(int version) { return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10); }
 
+/// A stream of a GPU. Each function first makes that GPU the calling thread's current one, since queues change threads.
 class CudaQueue : public wide::Queue {
   public:
     explicit CudaQueue(int gpu) : gpu_(gpu) {
@@ -123,13 +126,14 @@ class CudaQueue : public wide::Queue {
 
   private:
     void use() { check(cudaSetDevice(gpu_), "choosing it"); }
+    /// Begins a measurement of time, unless one has begun: it lasts until seconds() reads it, from the first step to the last.
     void start_clock() {
         use();
         if (!timing_) check(cudaEventRecord(begun_, steps_), "starting work");
         timing_ = true;
     }
 
-    // Bytes of local memory per thread, of the kernel that needs most.
+    /// Returns the bytes of local memory per thread of the kernel that needs most.
     static std::size_t largest_stack() {
         std::size_t most = 0;
         for (const cudaError_t asked :

@@ -12,12 +12,12 @@ struct ListedSquare {
     std::int32_t x, y;
 };
 
-/// The input of every item: a pixel, by point samples. Pointers are to the machine's memory.
+/// The input of every item, which renders a pixel by point samples. Pointers are to the machine's memory.
 struct Frame {
     optics::TracedDisplay<float> display;
     optics::RayOrigin view;
     optics::DirectionNumbers directions;
-    Tile tile;  // except for scene, view and directions, which each item takes from above
+    Tile tile;  // its display, view and directions are not used: each item takes those above
 
     // The squares of the frame that are rendered: those listed, whose pictures are stored one after another, or those of the
     // rectangle that holds the tile, row after row, from number `first_square` on.

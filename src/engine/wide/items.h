@@ -26,7 +26,7 @@ struct Pixel {
     std::int32_t x, y;
 };
 
-/// The first pixel of a square.
+/// Returns the first pixel of a square of the frame, `square` being its number among those rendered.
 LFDSIM_FN Pixel corner_of(const Frame& frame, std::uint32_t square) {
     if (frame.listed) return {frame.listed[square].x, frame.listed[square].y};
     const auto number = std::uint32_t(frame.first_square) + square, columns = std::uint32_t(frame.columns);
@@ -34,14 +34,15 @@ LFDSIM_FN Pixel corner_of(const Frame& frame, std::uint32_t square) {
             (frame.first_row + std::int32_t(number / columns)) * refined_side};
 }
 
-/// Pixel `number` of a square. Those of 32 threads that run together lie in 8 x 4 pixels.
+/// Returns pixel `number` of a square, counted from the square's first. Those of 32 threads that run together lie in 8 x 4 pixels.
 LFDSIM_FN Pixel pixel_of_square(std::uint32_t number) {
     static_assert(refined_side == 16);
     const int part = int(number) >> 5, within = int(number) & 31;
     return {((part & 1) << 3) + (within & 7), (part >> 1 << 2) + (within >> 3)};
 }
 
-/// Where the light of the frame's pixel (x, y), in a square, is written; nullptr: it is not needed.
+/// Returns where the light of the frame's pixel (x, y), in a square, is written; nullptr: it is not needed, as it lies outside the
+/// tile.
 LFDSIM_FN float* output(const Frame& frame, std::uint32_t square, std::int32_t x, std::int32_t y) {
     const Tile& tile = frame.tile;
     const bool wanted = x >= tile.x0 && x < tile.x1 && y >= tile.y0 && y < tile.y1;
@@ -50,8 +51,8 @@ LFDSIM_FN float* output(const Frame& frame, std::uint32_t square, std::int32_t x
     return tile.out + ((std::int64_t(square) * refined_side + y % refined_side) * refined_side + x % refined_side) * 3;
 }
 
-/// Item i: all samples of a pixel. There are fewer than 2^32 items (render.cpp); a GPU divides 64-bit numbers by a hundred
-/// instructions.
+/// Computes item i: the mean of all samples of a pixel. There are fewer than 2^32 items (render.cpp); a GPU divides 64-bit numbers
+/// by a hundred instructions.
 template <optics::Facts facts, bool sobol>
 LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
     Tile tile = frame.tile;

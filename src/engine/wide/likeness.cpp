@@ -12,12 +12,13 @@ constexpr int rows_at_once = 256;  // of moments: thousands of items, and 32 byt
 
 std::size_t pixels_of(const Image& image) { return std::size_t(image.width) * std::size_t(image.height); }
 
-/// Columns of each row of a picture that lie in the region.
+/// Appends the range of columns of each row of a picture that lies in the region.
 void append_columns(std::vector<Region::Row>& all, const Region& region, int width, int height) {
     const Region whole = Region::of({0, 0, width, height}).intersected(region);
     all.insert(all.end(), whole.rows.begin(), whole.rows.end());
 }
 
+/// Returns a copy of the values in the machine's memory.
 template <class T>
 Buffer<T> uploaded(Queue& queue, const std::vector<T>& values) {
     const Buffer<T> there(queue, values.size());
@@ -40,7 +41,7 @@ Photograph::Photograph(Queue& queue, const Image& photograph)
     frame.photograph_code = code.get();
     frame.photograph_light = light.get();
     queue.run(LikenessStep::photograph, frame, std::int64_t(pixels_of(photograph)));
-    queue.seconds();  // other queues may use it
+    queue.seconds();  // waits, as other queues may use the photograph from now on
 }
 
 std::size_t Photograph::bytes(const Image& photograph) { return pixels_of(photograph) * 5 * sizeof(float); }
@@ -53,6 +54,7 @@ std::size_t ViewComparison::bytes(int width, int height) {
 
 ViewComparison::ViewComparison(Queue& queue, const Photograph& photograph, const Region& screen, const Region& content)
     : queue_(queue) {
+    // The columns that count in each row: middles of windows in both regions, then the screen
     const int width = photograph.width, height = photograph.height;
     std::vector<Region::Row> columns;
     const Region* const regions[] = {&screen, &content};
@@ -101,6 +103,7 @@ Likeness ViewComparison::with(const float* view, float gain) {
     queue_.run(LikenessStep::cover, frame, height * column_groups);
     queue_.run(LikenessStep::rows, frame, likeness_sums * height);
 
+    // The sums of rows are added on the CPU.
     const std::size_t h = std::size_t(height);
     std::vector<double> rows(likeness_sums * h);
     queue_.download(rows.data(), sums_.get(), rows.size() * sizeof(double));

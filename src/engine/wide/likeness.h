@@ -8,9 +8,10 @@ namespace lfdsim::wide {
 
 /// A photograph's lumas in a machine's memory.
 struct Photograph {
-    /// Waits until it is there. Throws DeviceError.
+    /// Waits until they are there. Throws DeviceError.
     Photograph(Queue&, const Image&);
-    static std::size_t bytes(const Image&);  // while it is made
+    /// Returns the bytes that it takes while it is made.
+    static std::size_t bytes(const Image&);
 
     int width, height;
     Buffer<SrgbLine> srgb;      // for its own codes, and those of the views that are compared with it
@@ -22,9 +23,11 @@ struct Photograph {
 class ViewComparison {
   public:
     ViewComparison(Queue&, const Photograph&, const Region& screen, const Region& content);
+    /// Returns the bytes that a comparison of pictures of this size takes.
     static std::size_t bytes(int width, int height);
 
-    /// `view`: light in the machine's memory, 3 floats a pixel, of the photograph's size.
+    /// Returns the likeness of a view, whose light is multiplied by `gain`. `view`: light in the machine's memory, 3 floats a
+    /// pixel, of the photograph's size.
     Likeness with(const float* view, float gain);
 
   private:

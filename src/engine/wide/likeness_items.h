@@ -5,15 +5,16 @@
 
 namespace lfdsim::wide {
 
-/// Item i of the rows at hand, of which there are few: its row among them and its column. A GPU divides 64-bit numbers by a hundred
-/// instructions.
+/// The row, from the band's first, and the column of item i. A band has few enough items for 32 bits; a GPU divides 64-bit numbers
+/// by a hundred instructions.
 struct RowAndColumn {
     std::int32_t row, column;
     LFDSIM_FN RowAndColumn(const LikenessFrame& f, std::int64_t i)
         : row(std::int32_t(std::uint32_t(i) / std::uint32_t(f.width))), column(std::int32_t(i) - row * f.width) {}
 };
 
-/// Computes the moments of moment_rows pixels below each other, whose windows have most of their columns' pixels in common.
+/// Computes the moments of moment_rows pixels below each other, whose windows have most of their columns' pixels in common: of a
+/// (the view) and b (the photograph), a^2 + b^2 and a b, each weighted down the column. value_item() sums them across.
 LFDSIM_FN void moment_item(const LikenessFrame& f, std::int64_t i) {
     const RowAndColumn at(f, i);
     constexpr int span = ssim_window + moment_rows - 1;
@@ -39,16 +40,16 @@ LFDSIM_FN void moment_item(const LikenessFrame& f, std::int64_t i) {
     }
 }
 
-/// A group of columns of a row.
+/// A group of columns of a row: those with the same number modulo column_groups.
 struct Group {
     std::int32_t y, number;
     LFDSIM_FN explicit Group(std::int64_t i) : y(std::int32_t(i / column_groups)), number(std::int32_t(i % column_groups)) {}
 
-    /// Where one of its sums is kept.
+    /// Returns the place of one of its sums.
     LFDSIM_FN double& sum(const LikenessFrame& f, int which) const {
         return f.parts[(std::int64_t(which) * f.height + y) * column_groups + number];
     }
-    /// look(x) for its columns in a region, in their order.
+    /// Calls look(x) for its columns in a region's row, in ascending order.
     template <class Look>
     LFDSIM_FN void for_columns(Region::Row of_region, Look look) const {
         const std::int32_t first = of_region.from + ((number - of_region.from) & (column_groups - 1));
@@ -58,6 +59,7 @@ struct Group {
 
 LFDSIM_FN bool holds(Region::Row row, std::int32_t x) { return x >= row.from && x < row.to; }
 
+/// Computes SSIM of the window about a pixel of the band, if that may be a window's middle.
 LFDSIM_FN void value_item(const LikenessFrame& f, std::int64_t i) {
     const RowAndColumn at(f, i);
     const std::int32_t x = at.column, y = f.first_row + at.row;
@@ -69,6 +71,7 @@ LFDSIM_FN void value_item(const LikenessFrame& f, std::int64_t i) {
         ssim_value(across(of_a), across(of_b), across(of_squares), across(of_product));
 }
 
+/// Sums SSIM over a group of columns, for both regions.
 LFDSIM_FN void window_item(const LikenessFrame& f, std::int64_t i) {
     const Group group(i);
     const double* const value = f.values + std::int64_t(group.y) * f.width;
@@ -79,6 +82,7 @@ LFDSIM_FN void window_item(const LikenessFrame& f, std::int64_t i) {
     }
 }
 
+/// Sums the light that the covered share of the screen is derived from, over a group of columns.
 LFDSIM_FN void cover_item(const LikenessFrame& f, std::int64_t i) {
     const Group group(i);
     double sums[cover_sums] = {};
@@ -95,7 +99,7 @@ LFDSIM_FN void cover_item(const LikenessFrame& f, std::int64_t i) {
     for (int k = 0; k < cover_sums; ++k) group.sum(f, likeness_regions + k) = sums[k];
 }
 
-/// Item i of a step.
+/// Computes item i of a step.
 template <LikenessStep step>
 LFDSIM_FN void likeness_item(const LikenessFrame& f, std::int64_t i) {
     if constexpr (step == LikenessStep::photograph) {
@@ -119,7 +123,7 @@ LFDSIM_FN void likeness_item(const LikenessFrame& f, std::int64_t i) {
     }
 }
 
-/// do_it.template operator()<step>() for the step at hand: each is compiled separately.
+/// Calls do_it.operator()<step>() with the step as a constant: each is compiled separately.
 template <class Do>
 void choose_likeness_item(LikenessStep step, Do do_it) {
     switch (step) {

@@ -29,8 +29,8 @@ class Renderer {
     }
     Frame& frame() { return frame_; }
 
-    /// Renders all squares of the tile's rectangle, and calls after(n) after each part, of n pixels; stops, and returns false,
-    /// where after() returns false before the last part.
+    /// Renders all squares of the tile's rectangle in parts of Queue::points_at_once() points, and calls after(n) after each part,
+    /// of n pixels; ends, and returns false, where after() returns false before the last part.
     template <class After>
     bool run_all(After after) {
         const Tile& t = frame_.tile;
@@ -70,7 +70,7 @@ class Renderer {
     Buffer<ListedSquare> listed_;
 };
 
-/// Renders squares of the frame for refine_tile.
+/// Renders squares of the frame for refine_tile(): whole ones, whatever the crop.
 class WidePainter : public BlockPainter {
   public:
     WidePainter(Queue& queue, Renderer& renderer) : queue_(queue), renderer_(renderer) {
@@ -98,7 +98,7 @@ class WidePainter : public BlockPainter {
     std::size_t room_ = 0;
 };
 
-/// Renders rows of squares, some thousands of squares at a time: each takes 30 KB of the caller's memory.
+/// Renders to a target error, by rows of squares, some thousands of squares at a time: each takes 30 KB of the caller's memory.
 Done render_refined(Queue& queue, Renderer& renderer, const Tile& tile, double target, float* error, Job& job) {
     constexpr std::int64_t at_once = 4096;
     const std::int64_t columns = (tile.x1 - tile.x0) / refined_side + 2;
@@ -140,7 +140,7 @@ Done render_there(Queue& queue, const DevicePanel& panel, const Tile& tile, floa
     frame.tile.crop_x = tile.x0;
     frame.tile.crop_y = tile.y0;
     frame.tile.crop_width = tile.x1 - tile.x0;
-    std::int64_t told = 0;
+    std::int64_t told = 0;  // pixels reported to the job
     const bool complete = renderer.run_all([&](std::int64_t done) {
         done = std::min(done, pixels - told);  // squares reach beyond the tile
         told += done;
