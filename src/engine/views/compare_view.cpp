@@ -37,7 +37,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     if (device.gpu && !disperses(display) && estimator_of(display) != Estimator::lens_by_lens) {
         if (const auto done = compare_on_gpu(device, panel, planes, expected, gain, work, job))
             return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
-        on_cpu.device = "cpu";  // with the same bits
+        on_cpu.device = "cpu";  // by the GPU's points, so with the same bits
         shown = by_points(display);
     }
     Rendering view = render(shown, geometry, panel, on_cpu, job);

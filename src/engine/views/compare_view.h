@@ -16,7 +16,7 @@ class Expected {
     Expected(Image photograph, Region screen, Region content);
 
     const Image& photograph() const { return photograph_; }
-    /// The copies of it that GPUs hold, made at first use.
+    /// Returns the copies of the photograph that GPUs hold, made at first use.
     GpuPhotographs& on_gpus() const { return *on_gpus_; }
 
     const Region screen, content;
@@ -26,6 +26,7 @@ class Expected {
     std::shared_ptr<GpuPhotographs> on_gpus_;
 };
 
+/// The result of compare_view().
 struct ComparedView {
     Likeness likeness{};
     bool complete = true;    // false: cancelled, and no likeness

@@ -10,7 +10,8 @@
 namespace lfdsim {
 namespace {
 
-/// Calls add(number, share) for the whole numbers from `first` on, `count` of them, that the interval covers in part.
+/// Calls add(i, share) for the pixels i = 0 .. count - 1, which begin at `first` + i, of which the interval from .. to covers a
+/// part; the shares are those of the interval.
 template <class Add>
 void each_part(double from, double to, int first, int count, const Add& add) {
     for (int i = std::max(first, int(std::floor(from))); i < std::min(double(first + count), to); ++i)
@@ -21,6 +22,7 @@ void each_part(double from, double to, int first, int count, const Add& add) {
 
 GridCamera grid_camera(const Display& display, const Geometry& geometry, const ViewGrid& grid, int column, int row, int width,
                        int height) {
+    // The picture is centred on the camera's axis and reaches to the far ends of the focus, in square pixels.
     const auto [x, y] = grid.camera(column, row);
     const double pixel = 0.5 * std::min(grid.width_mm / width, grid.height_mm / height);
     const double half_columns = std::ceil((std::abs(x) + 0.5 * grid.width_mm) / pixel),
@@ -54,6 +56,7 @@ GridCamera grid_camera(const Display& display, const Geometry& geometry, const V
 Rendering grid_view(const GridCamera& made, const SummedPanel& panel, int width, int height, RenderOptions options, Job& job) {
     options.crop = made.crop;
     Rendering r = render(made.display, resolve(made.display), panel, options, job);
+    // The mean over each pixel's area, along rows, then along columns
     const Image& fine = r.image;
     Image even(width, fine.height), view(width, height);
     for (int i = 0; i < width; ++i)

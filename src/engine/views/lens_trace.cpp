@@ -12,7 +12,8 @@
 namespace lfdsim {
 namespace {
 
-/// The distance of a ray that fails a test by `excess` from getting through, with `to_come` more tests.
+/// Returns the distance of a ray from getting through, which fails a test by `excess` with `to_come` more tests ahead of it. It
+/// lies in to_come + 1 .. to_come + 2 and rises with the excess; an excess that is negative or not a number counts as infinite.
 double missed(int to_come, double excess) { return to_come + 1 + (excess >= 0 ? 1 - 1 / (1 + excess) : 1); }
 
 }  // namespace
@@ -30,7 +31,8 @@ LensTrace::LensTrace(const Display& display, const Geometry& geometry)
     }
 }
 
-/// The distance of a point from the aperture, in units of its radius; 0 or less: it lies inside.
+/// Returns the distance of a point from the lens's aperture of this radius and from the borders of its cell, in units of the radius
+/// and of the borders' distance from the axis: the larger of both; 0 or less: the point lies inside.
 double LensTrace::outside(double x, double y, double radius) const {
     double reach = std::hypot(x, optics::across(scene_.lattice, y)) / radius;
     for (int pair = 0; scene_.aperture == Aperture::cell && pair < optics::border_pairs(scene_.lattice); ++pair) {
@@ -40,8 +42,9 @@ double LensTrace::outside(double x, double y, double radius) const {
     return reach - 1;
 }
 
-/// Through the layers on the panel, whose directions are those in the lowest one. At their top: in air, or in what the lens is
-/// glued to. False: the light stays within them.
+/// Moves a ray from the panel to the top of the layers. `cosines` are those in the lowest layer, and become those in air, or in the
+/// top layer if the lens is glued to it: n times the cosines against x and y is the same in all plates (Snell's law). False: the
+/// light stays within the layers.
 bool LensTrace::leaves_layers(Point& at, Point& cosines) const {
     double index = 1;
     for (int k = scene_.layer_count; k-- > 0;) {  // from the panel upwards
@@ -58,6 +61,7 @@ bool LensTrace::leaves_layers(Point& at, Point& cosines) const {
     return true;
 }
 
+/// Does what blocked() does for an ideal lens, whose slope (dx, dy per mm upwards) above the layers is given.
 double LensTrace::blocked_by_ideal(Point panel, Point slope, LensRay& out) const {
     const double z = -scene_.ideal_z - scene_.layers_top, x = panel[0] + slope[0] * z, y = panel[1] + slope[1] * z;
     const double radius = scene_.aperture == Aperture::circle ? scene_.aperture_radius : infinity;
@@ -74,7 +78,7 @@ struct LensTrace::Aim : optics::SingleLens<double> {
     const int count = display.surface_count;
     const bool black = display.surround == Surround::opaque;
     double miss = 0;       // the answer; 0: it gets through
-    double astray = 0;     // by how much it misses this lens's own stop, which a search must find
+    double astray = 0;     // by how much it misses the stop of this lens, which a search must find
     double last = 0;       // by how much it misses the way out
     bool stopped = false;  // by the sheet of stops
 
@@ -112,6 +116,7 @@ struct LensTrace::Aim : optics::SingleLens<double> {
 };
 
 double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
+    // The layers. Of `count` surfaces there are 3 tests each (Aim), and 2 before them.
     const int count = scene_.surface_count;
     if (!leaves_layers(panel, cosines)) return missed(3 * count + 2, 0);
     const double top = -scene_.layers_top, cos2 = 1 - cosines[0] * cosines[0] - cosines[1] * cosines[1];
@@ -119,6 +124,7 @@ double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     const double cosine = std::sqrt(cos2);
     if (count == 0) return blocked_by_ideal(panel, {cosines[0] / cosine, cosines[1] / cosine}, out);
 
+    // The lens: in the frame of the lens turned over the ray goes down.
     optics::Passage<double> passage{{{panel[0], panel[1], 0}, {cosines[0], cosines[1], -cosine}}, {0, 0}, 1, true};
     const auto &at = passage.ray.at, &to = passage.ray.to;
     const auto place = [&](double from_z, double z) {
@@ -134,6 +140,7 @@ double LensTrace::blocked(Point panel, Point cosines, LensRay& out) const {
     const optics::Ray<double> entering{place(top, first.z), to};
     optics::pass_lens<optics::Facts{}>(scene_, aim, entering, optics::meet<optics::Facts{}>(scene_, 0, entering), passage);
     if (!passage.alive) return aim.miss > 0 ? aim.miss : missed(0, aim.last);
+    // The ray beyond it, at the rear principal plane
     const auto principal = place(at.z + scene_.surface[count - 1].z, -rear_principal_mm_);
     out = {principal.x, principal.y, -to.x / to.z, -to.y / to.z};
     return 0;
@@ -174,6 +181,9 @@ std::optional<Directions> LensTrace::directions(Point panel) const {
     return {};
 }
 
+/// Returns a rectangle about all directions that get through and lie near `box`, as directions() does. A grid of rays is traced,
+/// then one within a smaller rectangle: about the ray that comes nearest while all miss, else about those that get through, with
+/// two steps of the grid to spare, until the rectangle no longer shrinks to 0.6 of its size.
 std::optional<Directions> LensTrace::search(Point panel, Directions box) const {
     constexpr int across = 24;
     constexpr double narrowest = 1e-10;

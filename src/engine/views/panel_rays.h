@@ -13,12 +13,13 @@ namespace lfdsim {
 /// the panel pixel that they end on. May be used by several threads.
 class PanelRays {
   public:
-    /// `kernel` as RenderOptions has it; the rays do not depend on it. Throws InputError.
+    /// `kernel` is that of RenderOptions; the rays do not depend on it. Throws InputError.
     PanelRays(const Display&, const Geometry&, const std::string& kernel = {});
 
-    /// Rays of each pixel.
+    /// Returns the number of rays of each pixel.
     int samples() const { return int(samples_); }
-    /// The rays of the pixels of `part` of the camera's frame, row by row, those of a pixel side by side.
+    /// Sets `rays` to the rays of the pixels of `part` of the camera's frame, row by row, samples() rays a pixel one after the
+    /// other.
     void trace(const Rect& part, std::vector<PanelRay>& rays) const;
 
   private:

@@ -20,6 +20,7 @@ class CameraPoints {
   public:
     CameraPoints(const Display& display, const Geometry& geometry)
         : position_(display.camera.position_mm), axes_(camera_axes(display.camera)), view_(make_ray_origin(display, geometry)) {}
+    /// Returns where the camera sees a point of the display's frame, mm; nothing if it is not in front of the camera.
     std::optional<std::array<double, 2>> of(const Vec3d& point) const {
         const Vec3d to = minus(point, position_);
         const double depth = dot(to, axes_.forward);
@@ -27,7 +28,8 @@ class CameraPoints {
         const double pixels = view_.distance / depth / view_.pixel_mm;  // in the frame, of a millimetre at this depth
         return std::array{0.5 * view_.width + dot(to, axes_.right) * pixels, 0.5 * view_.height - dot(to, axes_.up) * pixels};
     }
-    /// Takes a rectangle's corners from the top left on, clockwise.
+    /// Returns where the camera sees a rectangle's corners, from the top left on, clockwise. corner(right, up) is the point of the
+    /// corner to the right (1) or left (-1), at the top (1) or bottom (-1).
     template <class Corner>
     std::optional<Corners> of_corners(const Corner& corner) const {
         constexpr double right[] = {-1, 1, 1, -1}, up[] = {1, 1, -1, -1};
@@ -52,14 +54,15 @@ namespace {
 
 using Polygon = std::vector<Point>;
 
-/// A line of the plane: points p of its inner side have normal . p <= most.
+/// A half of a plane: its points p have normal . p <= most.
 struct HalfPlane {
     Point normal;
     double most;
     double beyond(const Point& p) const { return normal[0] * p[0] + normal[1] * p[1] - most; }
 };
 
-/// The array's rectangle on the vertex plane from its top left corner on, clockwise.
+/// Returns the array's rectangle on the vertex plane, mm in the display's frame, from its top left corner on, clockwise. Quarter
+/// turns of the array exchange width and height, so that the corner called top left is at the top left.
 Polygon array_outline(const Geometry& g) {
     const double quarters = std::round(g.turn_deg / 90), rest = g.turn_deg - 90 * quarters;
     const double c = std::cos(rest * degree), s = std::sin(rest * degree);
@@ -74,7 +77,8 @@ Polygon array_outline(const Geometry& g) {
     return outline;
 }
 
-/// The sides of the panel over which the array reaches by more than half a lens, as the camera sees them on the vertex plane.
+/// Returns the sides of the panel over which the array reaches by more than half a lens, as the camera sees them on the vertex
+/// plane: a point P of the panel is seen there at P + z_v/z_c (C - P), C the camera's position over the panel and z_c its height.
 std::vector<HalfPlane> panel_sides(const Geometry& g, const Vec3d& camera, const Polygon& array) {
     const Lattice<double>& l = g.lattice;
     const double on = g.vertex_plane_mm / camera[2];  // how much of the way from the panel to the camera
@@ -92,13 +96,14 @@ std::vector<HalfPlane> panel_sides(const Geometry& g, const Vec3d& camera, const
     return sides;
 }
 
-/// The point of the line through a and b at which the line through c and d meets it.
+/// Returns the point of the line through a and b at which the line through c and d meets it.
 Point meeting(const Point& a, const Point& b, const Point& c, const Point& d) {
     const double ux = b[0] - a[0], uy = b[1] - a[1], vx = d[0] - c[0], vy = d[1] - c[1];
     const double t = ((c[0] - a[0]) * vy - (c[1] - a[1]) * vx) / (ux * vy - uy * vx);
     return {a[0] + t * ux, a[1] + t * uy};
 }
 
+/// Returns the part of a convex polygon within a half plane.
 Polygon cut(const Polygon& from, const HalfPlane& side) {
     Polygon to;
     for (std::size_t k = 0; k < from.size(); ++k) {
@@ -112,7 +117,8 @@ Polygon cut(const Polygon& from, const HalfPlane& side) {
     return to;
 }
 
-/// A polygon without its short edges: the edges before and after each are drawn on until they meet.
+/// Returns a polygon without its short edges, as long as it has more than four: the edges before and after each are extended until
+/// they meet.
 Polygon without_short_edges(Polygon p) {
     constexpr double part = 0.02;  // of the outline
     const auto length = [&](std::size_t k) {
@@ -133,7 +139,7 @@ Polygon without_short_edges(Polygon p) {
     return p;
 }
 
-/// Turned so that the corner farthest up and left comes first.
+/// Rotates the order of a polygon's corners so that the one farthest up and left comes first.
 void begin_top_left(Polygon& p) {
     const auto [left, right] = std::ranges::minmax(p, {}, [](const Point& at) { return at[0]; });
     const auto [low, high] = std::ranges::minmax(p, {}, [](const Point& at) { return at[1]; });
@@ -142,6 +148,7 @@ void begin_top_left(Polygon& p) {
     std::rotate(p.begin(), first, p.end());
 }
 
+/// Returns where the camera sees the four corners of an outline on the vertex plane; nothing if one is not in front of the camera.
 std::optional<Corners> seen_corners(const Display& display, const Geometry& geometry, const Polygon& outline) {
     const CameraPoints camera(display, geometry);
     Corners corners;
