@@ -9,13 +9,14 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// A box for each lane, wide x high pixels about a place (column, row) from a base; `weight` times the mean light in it counts.
+/// A box for each lane, wide x high pixels about the place (column, row), pixels from the base's whole pixel; `weight` times the
+/// mean light in it counts.
 template <class F>
 struct Boxes {
     F column, row, wide, high, weight;
 };
 
-/// A narrower box, in pixels, is read as if it were so wide.
+/// The least width and height of a box, pixels: a narrower one is read as if it had them.
 constexpr float least_box = 1.0f / 4096;
 
 /// The pixels that the side of a box at most one pixel long covers: `cell` and the next one, and how much of the side lies in each.
@@ -24,9 +25,10 @@ struct ShortSide {
     Uint<F> cell;
     F in_cell, in_next;
 
+    /// `middle` is in pixels from the pixel `base`.
     LFDSIM_FN ShortSide(std::uint32_t base, F middle, F size) {
         const F one = F(1), start = middle - F(Scalar<F>(0.5)) * size, whole = floor(start);
-        in_next = max(one - quotient(whole + one - start, size), F(0));
+        in_next = max(one - quotient(whole + one - start, size), F(0));  // (start + size - (whole + 1)) / size
         in_cell = one - in_next;
         cell = Uint<F>(base) + to_int(whole);
     }
@@ -95,6 +97,8 @@ LFDSIM_LARGE void add_integrals(const SummedImage& image, const LongSide<F>& acr
     store_parts(down, of_row);
     store(select(across.there && down.there, weight * F(image.light_per_unit), F(0)), per_unit);
     const std::size_t pitch = std::size_t(image.columns) + 1;
+    // In each lane: rows of corners above and below the first, the middle and the last row of rectangles, and in each row of
+    // corners the differences of sums across the first, the middle and the last column.
     for (int k = 0; k < lanes; ++k) {
         Texel box{};
         if (per_unit[k] != S(0)) {
@@ -127,7 +131,8 @@ LFDSIM_LARGE void add_integrals(const SummedImage& image, const LongSide<F>& acr
 template <class F>
 struct CutSide {
     static constexpr int most = 16;
-    F start, step, size, count, share;  // of the first piece; from piece to piece; of each; `share`: of the side, of each
+    F start, step, size, count,
+        share;  // of the first; from piece to piece; a piece's size; their number; each one's share of the side
 
     /// About `middle`, pixels from the pixel `base` of `pixels`.
     LFDSIM_FN CutSide(std::uint32_t base, std::uint32_t pixels, F middle, F whole_size, F most_size) {
@@ -145,14 +150,15 @@ struct CutSide {
     LFDSIM_FN F from(F piece) const { return start + piece * step; }
 };
 
-/// Adds the light of boxes of any size: in one piece if they have at most SummedImage::most_pixels.
+/// Adds the light of boxes of any size: in one piece if they have at most SummedImage::most_pixels, beyond which sums would not be
+/// exact.
 template <class F>
 LFDSIM_FN void add_large_boxes(const SummedImage& image, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Light<F>& light) {
     using S = Scalar<F>;
     constexpr S most = SummedImage::most_pixels, side = 64;
     static_assert(side * side == most);
     const F one = F(1), zero = F(0), least = F(S(1e-30));
-    // A box that is narrow may be long.
+    // A piece is at most 64 x 64 pixels; where the box is narrower one way, it may be longer the other way.
     const CutSide<F> across(base.column, image.columns, box.column, box.wide, max(F(side), F(most) / max(box.high, one)));
     const CutSide<F> down(base.row, image.rows, box.row, box.high, F(most) / max(across.size, one));
     const F pieces = across.count * down.count, weight = box.weight * across.share * down.share;
@@ -168,7 +174,7 @@ LFDSIM_FN void add_large_boxes(const SummedImage& image, const PanelBase<Scalar<
     }
 }
 
-/// Adds the light of boxes of any size.
+/// Adds the light of boxes of any size, in each lane by the faster way that serves it.
 template <class F>
 LFDSIM_FN void add_boxes(const SummedImage& image, const PanelBase<Scalar<F>>& base, Boxes<F> box, Light<F>& light) {
     const F one = F(1), zero = F(0), weight = box.weight;

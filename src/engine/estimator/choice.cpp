@@ -12,15 +12,15 @@ namespace {
 
 using Limits = FilteredLimits;
 
-/// A number that looks random (a bijective hash with good avalanche).
+/// Returns a number that looks random (a bijective hash with good avalanche).
 std::uint32_t scrambled(std::uint32_t a) {
     a = (a ^ a >> 16) * 0x7feb352du;
     a = (a ^ a >> 15) * 0x846ca68bu;
     return a ^ a >> 16;
 }
 
-/// Squares of 4 x 4 pixels, one at a random place in each cell of a grid: lenses that are seen at an even pitch would otherwise be
-/// met at the same part each time.
+/// Returns squares of 4 x 4 pixels, one at a random place in each cell of a grid of an_axis x an_axis cells over the region: lenses
+/// that appear at an even pitch would otherwise be met at the same part each time. They depend on the region alone.
 std::vector<Rect> places_in(const Rect& region, int an_axis) {
     std::vector<Rect> places;
     const auto start = [&](std::int64_t low, std::int64_t high, int k, std::uint32_t number) {
@@ -49,7 +49,7 @@ void move_to(Tile& tile, const Rect& place) {
     tile.crop_width = place.x1 - place.x0;
 }
 
-/// The light of places, one after the other.
+/// Returns the light of places, one after the other, by the tile's estimator.
 std::vector<float> light_at(Kernel kernel, Tile tile, const std::vector<Rect>& places) {
     std::vector<float> light;
     for (const Rect& at : places) {
@@ -61,7 +61,7 @@ std::vector<float> light_at(Kernel kernel, Tile tile, const std::vector<Rect>& p
     return light;
 }
 
-/// The light of places if the panel were white: the shares of the rays that meet it.
+/// Returns the light of places by points if the panel were white: the shares of the rays that meet it.
 std::vector<float> white_at(Kernel kernel, Tile tile, const std::vector<Rect>& places, bool subpixels) {
     constexpr std::uint32_t all = 3;
     std::vector<PanelRay> rays(std::size_t(Limits::place_side * Limits::place_side) * tile.samples);
@@ -83,7 +83,7 @@ std::vector<float> white_at(Kernel kernel, Tile tile, const std::vector<Rect>& p
     return light;
 }
 
-/// The square of the error of two independent pictures.
+/// Returns the mean square error of a picture, from two independent ones with the same expectation: the mean of (a - b)^2/2.
 double spread2_of(const std::vector<float>& a, const std::vector<float>& b) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += 0.5 * (a[k] - b[k]) * (a[k] - b[k]);
@@ -96,10 +96,11 @@ struct FilteredError {
     // Each with the standard deviation of the estimate.
     double square = 0, square_noise = 0;   // of a pixel's error: mean of (f - a) (f - b)
     double local2 = 0, local_noise = 0;    // square of the error of the mean over a neighbourhood: mean of products of two places
-    double region2 = 0, region_noise = 0;  // the same over the region
+    double region2 = 0, region_noise = 0;  // square of the error of the mean over the region
 
     FilteredError(const std::vector<float>& f, const std::vector<float>& a, const std::vector<float>& b,
                   const std::vector<Rect>& places) {
+        // At each place: the mean product (f - a)(f - b), and the mean error e = f - (a + b)/2
         constexpr double all = Limits::places_an_axis * Limits::places_an_axis, pairs = all * (all - 1);
         double error[Limits::places_an_axis][Limits::places_an_axis], sum = 0, squares = 0, fourth = 0;
         std::size_t k = 0;
@@ -116,11 +117,14 @@ struct FilteredError {
             square += product / all;
             fourth += product * product / all;
         }
+        // Over all ordered pairs of places the sum of e e' is (sum of e)^2 - (sum of e^2). If errors were independent and their
+        // mean 0, the mean over the pairs would vary by <e^2> sqrt(2/pairs).
         square_noise = std::sqrt(std::max(fourth - square * square, 0.0) / (all - 1));
         region2 = (sum * sum - squares) / pairs;
         region_noise = squares / all * std::sqrt(2 / pairs);
 
-        constexpr int hoods = Limits::places_an_axis / Limits::together;  // along an axis
+        // The same over the pairs within each neighbourhood of `together` x `together` places
+        constexpr int hoods = Limits::places_an_axis / Limits::together;  // neighbourhoods along an axis
         constexpr double each = Limits::together * Limits::together, local_pairs = hoods * hoods * each * (each - 1);
         for (int n = 0; n < hoods * hoods; ++n) {
             double total = 0, own = 0;
@@ -135,9 +139,10 @@ struct FilteredError {
         local_noise = squares / all * std::sqrt(2 / local_pairs);
     }
 
+    /// Returns an upper estimate of a pixel's error, its square being larger by one standard deviation.
     double rms() const { return std::sqrt(std::max(square, 0.0) + square_noise); }
-    /// Whether a pixel's error and the mean's are below what is allowed. Where neither right() nor wrong() holds, more points
-    /// decide.
+    /// Returns whether a pixel's error is at most `allowed`, and that of the mean at most `mean` in neighbourhoods, `mean`/sqrt(2)
+    /// in the region. Where neither right() nor wrong() holds, more points decide.
     bool right(double allowed, double mean) const {
         return rms() <= allowed && std::max(local2, 0.0) + 0.5 * local_noise <= mean * mean &&
                region2 <= 0.5 * mean * mean + region_noise;
@@ -157,7 +162,7 @@ EstimatorChoice::EstimatorChoice(const Display& display, const Geometry& geometr
     for (const EvenPart& part : even_parts(display)) filtered_.emplace_back(part, geometry, panel, options);
     strata_ = {filtered_.front().work.tile.strata};
     if (display.render.samples) given_ = std::uint32_t(*display.render.samples);
-    // Parts of a bell have what number of strata they have.
+    // The pictures that a gaussian diffuser consists of have fixed numbers of strata.
     if (options.target_error && filtered_.size() == 1) strata_ = {2, 4, 8};
 }
 
@@ -211,9 +216,12 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
     const std::vector<Rect> places =
         places_in({x0, y0, std::min(x0 + region_side, points_.view.width), std::min(y0 + region_side, points_.view.height)},
                   Limits::places_an_axis);
+    // Filtered light at the region's places, with each number of strata
     std::vector<PixelColours> filtered;
     for (const int strata : strata_) filtered.push_back(filtered_at(kernel, places, strata));
 
+    // Candidates are compared with more and more points, until one is right or all are wrong. With a given number of samples,
+    // filtered light has to be better than that number of points.
     const double target = points_.target_error.value_or(0);
     RegionChoice choice;
     std::size_t candidate = 0;
@@ -239,6 +247,7 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
         const bool enough = given_ || target > 0 || spread <= (points < 36 ? Limits::rms_allowed : Limits::points_rms) * light_;
         if (points == Limits::last_points || (candidate == filtered.size() && enough)) break;
     }
+    // By points: as many as are given, or as make the error small enough
     if (target > 0) return choice;
     choice.points = given_.value_or(points);
     if (!given_)

@@ -1,8 +1,8 @@
 // Which estimator renders which part of a picture: measured against points, not decided by the kind of display. Floor 2.
 //
-// Filtered light is many times cheaper than points of the same error where lenses bend rays smoothly and pixels shine all over.
-// Where they do not, it may be wrong, and the same for every seed. So a region of the frame is rendered by filtered light only
-// where that agrees with points at places spread over the region; elsewhere by as many points as a small error takes.
+// Filtered light is many times cheaper than points of the same error where lenses bend rays smoothly and pixels emit over their
+// whole area. Where they do not, it may be wrong, and equally for every seed. So a region of the frame is rendered by filtered
+// light only where that agrees with points at places spread over the region; elsewhere by as many points as a small error takes.
 // docs/model.md, "What a default picture is made of".
 #pragma once
 #include "engine/estimator/gaussian_parts.h"
@@ -16,8 +16,8 @@ namespace lfdsim {
 
 /// The choice of estimator for one region.
 struct RegionChoice {
-    int strata = 0;            // an axis, of filtered light; 0: by points
-    std::uint32_t points = 0;  // a pixel; 0: as many as the target error takes
+    int strata = 0;            // number along an axis, of filtered light; 0: by points
+    std::uint32_t points = 0;  // points a pixel, if by points; 0: as many as the target error takes
     double error = 0;          // root mean square over pixels and colours, linear light, as measured at the region's places
     std::int64_t samples = 0;  // taken to measure
 };
@@ -30,13 +30,14 @@ class EstimatorChoice {
     /// Throws what Work throws.
     EstimatorChoice(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
 
-    /// The picture by points; its result is the whole picture's.
+    /// Returns the picture by points; its result is that of the whole picture.
     Work& work() { return points_; }
     const Work& work() const { return points_; }
 
     /// Measures the light of the whole frame, which errors are judged by. Comes before choose().
     void look(Kernel);
-    /// The region's choice, which depends neither on the crop nor on what is chosen elsewhere.
+    /// Returns the choice for the region in this column and row of regions, counted from the frame's first. It depends neither on
+    /// the crop nor on what is chosen elsewhere. May be called by several threads.
     RegionChoice choose(Kernel, int column, int row) const;
     /// Renders a tile that lies in a region by anything but a target error; returns the samples taken.
     std::int64_t render(Kernel, const RegionChoice&, const Tile&) const;
@@ -44,12 +45,14 @@ class EstimatorChoice {
   private:
     using PixelColours = std::vector<float>;  // three numbers a pixel
 
+    /// Returns the filtered light of places, one after the other.
     PixelColours filtered_at(Kernel, const std::vector<Rect>& places, int strata) const;
-    /// `of_white`: of a white panel.
+    /// Returns the light of places by points; that of the panel if it were white, with `of_white`. Different repetitions use
+    /// independent numbers.
     PixelColours points_at(Kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition,
                            bool of_white = false) const;
 
-    /// A display whose pictures add up to that by filtered light: one box of the diffuser's bell.
+    /// One of the pictures that add up to that by filtered light: of one of the box diffusers that a gaussian one consists of.
     struct GaussianBox {
         GaussianBox(const EvenPart& of, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
                     const RenderOptions& options)
@@ -59,7 +62,7 @@ class EstimatorChoice {
     };
     Work points_;
     std::list<GaussianBox> filtered_;
-    std::vector<int> strata_;             // an axis, of filtered light, the fewest first
+    std::vector<int> strata_;             // numbers along an axis that are tried, of filtered light, the least first
     std::optional<std::uint32_t> given_;  // points a pixel, where the description has a number of samples
     double light_ = 0;                    // of the frame, by which errors are judged
 };

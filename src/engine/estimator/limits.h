@@ -1,5 +1,5 @@
 // The limits of the filtered and of the lens-by-lens estimator's shortcuts, and of the choice between them and points. Floor 2.
-// docs/design.md, "The filtered estimator", explains blocks, strata and shared footprints.
+// docs/design.md, "The filtered estimator", explains blocks, strata and shared footprints, and which tests keep these limits.
 #pragma once
 #include <cstdint>
 
@@ -8,7 +8,7 @@ namespace lfdsim {
 /// The pixels of a block share footprints as long as the result holds for all of them. Where a limit is exceeded, smaller blocks
 /// are tried, and the smallest are rendered lens by lens. Wider limits share more.
 struct FilteredLimits {
-    // A display (engine/scene/traced_display.cpp). Picture pixels that a diffused ray spans along each axis at least.
+    // Limits of a display (engine/scene/traced_display.cpp). Picture pixels that a diffused ray spans along each axis at least.
     static constexpr double least_span = 4;
     // A diffuser is weak where rays span less than this along both axes, in picture pixels and in lens pitches.
     static constexpr double weak_span = 20, weak = 0.5;
@@ -17,11 +17,11 @@ struct FilteredLimits {
     // How wide a block of 16 x 16 pixels may be, as a share of the lens pitch or of what a diffused ray spans, whichever is less.
     // In this order: for a fine picture; for many strata; for a rough picture; otherwise.
     static constexpr double block_finest = 0.05, block_fine = 0.2, block_rough = 0.95, block_usual = 0.7;
-    // Those limits for blocks of 8 x 8 pixels, at most twice the ones for 16 x 16.
+    // The same share for blocks of 8 x 8 pixels, which is at most twice the one for 16 x 16: for a rough picture; otherwise.
     static constexpr double half_block_rough = 0.8, half_block_usual = 0.4;
 
-    // A block (engine/estimator/shared_footprint.h). Lens pitches: how far the fourth ray of a block may be from where the other
-    // three predict it.
+    // Limits of a block (engine/estimator/shared_footprint.h). Lens pitches by which the fourth ray of a block may be off from
+    // where the other three predict it.
     static constexpr double bend = 1e-3;
     // Least cosine of a ray to the normal after the diffuser's largest turn, over the cosine before it.
     static constexpr double steepest = 0.2;
@@ -29,11 +29,12 @@ struct FilteredLimits {
     // and with many, which are used where little noise is allowed.
     static constexpr double misjudged = 0.05, misjudged_fine = 0.002;
 
-    // A stratum (kernels/filtered_axis.h). Half pitches from a lens's axis within which a stratum looks through one lens.
+    // A limit of a stratum (kernels/filtered_axis.h). Half pitches from a lens's axis within which a stratum looks through one
+    // lens.
     static constexpr double cell_margin = 1.02;
 
-    // A shared footprint (engine/estimator/shared_footprint.h, kernels/filtered_footprints.h). Panel pixels: the light of a wider
-    // footprint is the mean over boxes around its probes, not over one box.
+    // Limits of a shared footprint (engine/estimator/shared_footprint.h, kernels/filtered_footprints.h). Panel pixels: the light of
+    // a wider footprint is the mean over boxes around its probes, not over one box.
     static constexpr double narrow = 1;
     // Panel pixels, where these have a black matrix or subpixels: the light of a narrower box changes from pixel to pixel of the
     // picture and is not interpolated.
@@ -56,8 +57,8 @@ struct FilteredLimits {
     // (places), and for one wide footprint (nodes).
     static constexpr int place_step = 4, node_step = 8;
 
-    // Lens by lens (kernels/lens_by_lens.h, visible_lenses.h). Share of a cell by which a lens's part of the domain may be wider
-    // than a number of cells without one more.
+    // Limits of lens by lens (kernels/lens_by_lens.h, visible_lenses.h). Share of a cell by which a lens's part of the domain may
+    // be wider than a number of cells without one more.
     static constexpr double cell_to_spare = 0.3;
     // Weight of the widest spread among the coordinates that outlines do not cut: it is read as a box.
     static constexpr double boxed_spread = 0.3;
@@ -72,17 +73,19 @@ struct FilteredLimits {
     static constexpr double oblique_line = 0.125;
     static constexpr int most_pieces = 8;
 
-    // The choice between filtered light and points (engine/estimator/choice.cpp). Errors are allowed as shares of the frame's light
-    // or of the target error: of the mean over a neighbourhood of pixels, and of a pixel, by filtered light and by points. By
-    // points so that the mean over 500 pixels is right to 0.002. The frame's light is at least `least_light` of the mean of a white
-    // panel's picture, which counts as `least_white` at least.
+    // Limits of the choice between filtered light and points (engine/estimator/choice.cpp). The frame's light is at least
+    // `least_light` of the mean of a white panel's picture, which counts as `least_white` at least. Errors allowed: of the mean
+    // over a neighbourhood of pixels, as a share of the frame's light (`mean_allowed`) or of the target error (`mean_of_target`);
+    // of a pixel, as a share of the frame's light, by filtered light (`rms_allowed`) and by points (`points_rms`, with which the
+    // mean over 500 pixels is right to 0.002).
     static constexpr double least_light = 0.05, least_white = 0.05, mean_allowed = 0.003, mean_of_target = 0.3, rms_allowed = 0.01,
                             points_rms = 0.04;
-    // A pixel of filtered light may be as wrong as one of 36 Sobol points: the error of these over that of 16.
+    // The error of a pixel by 36 Sobol points over that by 16. A pixel of filtered light may be as wrong as one of 36 points.
     static constexpr double of_36_points = 0.5;
     // The power of the number of points by which their error falls, at least.
     static constexpr double falls_as = -0.62;
-    // Points a pixel at a region's places: the first, four times as many in each step, and the last. The most that are chosen.
+    // Numbers of points a pixel: with which a region's places are first and last measured, four times as many in each step; the
+    // most that are chosen.
     static constexpr std::uint32_t first_points = 16, last_points = 256, most_chosen_points = 16384;
     // Pixels along a place's side: as many as share a list of lenses. Places along a region's side, along a neighbourhood's, and
     // along the frame's.

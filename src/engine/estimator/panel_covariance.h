@@ -20,28 +20,34 @@ struct PanelCovariance {
     }
 };
 
-/// Light that two uniform spreads move along one axis, and its share between 0 and a position.
+/// Light that two uniform spreads move along one axis, by t and h: its density over t + h is a trapezium (docs/model.md, "Black
+/// matrix and subpixels").
 template <class F>
 struct TwoSpreads {
     F one, other;  // full widths, neither much less than the other
 
-    /// The share of all light between 0 and the position: odd in the position.
+    /// Returns the share of all light between 0 and the position `place`, in it: odd. The density is 1/longer up to |one - other|/2
+    /// from the middle; beyond, what is missing from 1/2 is rest^2/(2 one other), `rest` from the trapezium's end.
     LFDSIM_FN F share(F place) const {
         using S = Scalar<F>;
         const F half = F(S(0.5)), longer = max(one, other), at = abs(place), rest = max(half * (one + other) - at, F(0));
         const F some = select(at > half * abs(one - other), half - quotient(half * rest * rest, one * other), quotient(at, longer));
         return select(place < F(0), -some, some);
     }
-    /// The integral over that light of the distance by which the first spread has moved it: even in the position.
+    /// Returns the integral of t, the distance by which the first spread has moved light, over the light between 0 and the
+    /// position: even. moved_by_other() is that of h.
     LFDSIM_FN F moved(F place) const { return moved(one, other, place); }
     LFDSIM_FN F moved_by_other(F place) const { return moved(other, one, place); }
 
   private:
+    /// Returns G(place) - G(0), G the integral over light up to a position of the distance by which the spread `by` has moved it.
     LFDSIM_FN static F moved(F by, F more, F place) {
         using S = Scalar<F>;
         const F half = F(S(0.5)), even = half * abs(by - more), at = min(abs(place), half * (by + more)), in = min(at, even);
+        // Where the trapezium is flat, the mean of t is the position itself, or 0 if `by` is the shorter spread.
         const F inner = select(by > more, quotient(half * in * in, by), F(0)), from = in - half * more, to = at - half * more;
-        // Of the first spread what lies beyond `to` has moved light there.
+        // At a position p farther out t is between q = p - more/2 and by/2, so its integral is (by^2/4 - q^2)/2 times the density
+        // 1/(by more), and over q from `from` to `to` (to - from) (by^2/4 - (to^2 + to from + from^2)/3)/2 times that.
         const F third = F(S(1.0 / 3)), end2 = F(S(0.25)) * by * by;
         const F outer = (to - from) * (end2 - third * (to * to + to * from + from * from));
         return inner + quotient(half * outer, by * more);
@@ -49,7 +55,7 @@ struct TwoSpreads {
 };
 
 /// Oblique lines on the panel: light that two spreads move, each uniformly over `along` pixels along an axis and by `slope` pixels
-/// across for each of them, and together over `across` as well.
+/// across for each of them; both together spread it by `across` pixels across the line, too.
 template <class F>
 struct ObliqueLines {
     struct ObliqueLine {
@@ -61,8 +67,8 @@ struct ObliqueLines {
 };
 
 /// Pieces of oblique lines along `axis`, 0 for columns and 1 for rows: one for each cell of a part of the panel, between the ends
-/// of what shines there. Within a piece the panel shines uniformly, and its slope only widens it. Of long lines a piece is several
-/// cells.
+/// of what emits there. Within a piece the panel emits uniformly along the line, and the line's slope only widens it. Of long lines
+/// a piece is several cells.
 template <int axis, class F>
 class Pieces {
     using S = Scalar<F>;
@@ -80,6 +86,7 @@ class Pieces {
         const F zero = F(0), one = F(1), half = F(S(0.5));
         const std::uint32_t number = axis == 0 ? base.column : base.row;
         along = PlaneSide<F>(part, axis, number, line.place[axis], spreads.one + spreads.other);
+        // The cells of this piece, and the ends of what emits in them
         const F pixels = F(S(part.cell[axis])), all = along.middle, start = all - half * along.width,
                 end = all + half * along.width, first = floor(start),
                 step = max(one, F(0) - floor((first - end) * F(S(1.0 / FilteredLimits::most_pieces)))),
@@ -88,12 +95,15 @@ class Pieces {
         const F low = max(from, start), high = min(from + step, end), last_cell = F(0) - floor(F(0) - high) - one;
         const F lit = max(low, floor(low) + F(part.from[axis])), dark = max(min(high, last_cell + F(part.to[axis])), lit);
         const F a = (lit - all) * pixels, b = (dark - all) * pixels;  // panel pixels from the middle
+        // Its share of the light, and its middle across: that of the line plus slope_1 mean(t) + slope_2 mean(h)
         share = max(spreads.share(b) - spreads.share(a), zero);
         const F by_one = line.one.slope, by_other = line.other.slope;
         middle = line.place[1 - axis] + quotient(by_one * (spreads.moved(b) - spreads.moved(a)) +
                                                      by_other * (spreads.moved_by_other(b) - spreads.moved_by_other(a)),
                                                  max(share, F(S(1e-6))));
-        // Twelve times the variances of what lies in the piece: along it, and of how far each spread has moved that.
+        // Twelve times the variances of what lies in the piece: of t + h, along it, and of t and h, taken as those of uniform
+        // spreads cut to the piece. Across, var(s1 t + s2 h) = (s1 - s2)(s1 var t - s2 var h) + s1 s2 var(t + h), with the slopes
+        // s1 and s2.
         const F reach = half * sqrt(one2 + other2), length = max(min(b, reach) - max(a, -reach), zero), in2 = length * length,
                 moved2 = min(one2, in2 + other2), moved_by_other2 = min(other2, in2 + one2);
         aside = sqrt(max((by_one - by_other) * (by_one * moved2 - by_other * moved_by_other2) + by_one * by_other * in2, zero));
@@ -103,8 +113,8 @@ class Pieces {
         return true;
     }
 
-    PlaneSide<F> along;
-    F share, middle, aside;  // of the light; across, and how far it spreads there besides line.across
+    PlaneSide<F> along;      // mapped to cumulative light
+    F share, middle, aside;  // share of the light; middle across, panel pixels; spread across by the slopes, besides line.across
 
   private:
     const ObliqueLines<F>& line;
@@ -112,7 +122,7 @@ class Pieces {
     const TwoSpreads<F> spreads;
 };
 
-/// Adds the mean light over oblique lines of a panel with subpixels.
+/// Adds the mean light over oblique lines of a panel with subpixels: the sum over pieces and parts, of which each is read as a box.
 template <int axis, class F>
 LFDSIM_LARGE void add_lines(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const ObliqueLines<F>& line,
                             Light<F>& light) {
@@ -151,6 +161,7 @@ LFDSIM_FN void add_spread(const PanelLight& panel, const PanelBase<Scalar<F>>& b
     const Boxes<F> all{column, row, sqrt(domain.w2 + others.w2), sqrt(domain.h2 + others.h2), weight};
     const F wider = least_oblique * max(all.wide, least), higher = least_oblique * max(all.high, least);
     const Mask<F> down = !(all.wide > all.high), oblique = least_oblique * (abs(domain.c) + abs(others.c)) > wider * higher;
+    // Along `axis` each spread has the width sqrt(w2) and the slope c/w2; the rest, h2 - c^2/w2, is across (columns as axis).
     const auto add_oblique = [&]<int axis>(Mask<F> some) {
         if (none(some)) return;
         F across2 = zero;  // the spread across the line

@@ -1,7 +1,7 @@
-// The mean light of a panel over boxes, whether its pixels shine all over or in subpixels. Floor 2.
+// The mean light of a panel over boxes, whether its pixels emit over their whole area or in subpixels. Floor 2.
 //
-// A rectangle that shines in each cell of some pixels is a function of column times one of row. So its light in a box is that of a
-// box in coordinates of cumulative light over the picture in which the rectangle fills the cell: docs/model.md, "Black matrix and
+// A rectangle that emits in each cell of pixels is a function of column times one of row. So its light in a box is that of a box in
+// coordinates of cumulative light over the picture in which the rectangle fills the cell: docs/model.md, "Black matrix and
 // subpixels".
 #pragma once
 #include "engine/estimator/box_means.h"
@@ -15,9 +15,9 @@ constexpr float least_product = 5e-4f, least_share = 1.0f / 16;
 /// A side of a box of the panel, as that of a box of the plane in which a subpixel's part repeats.
 template <class F>
 struct PlaneSide {
-    std::uint32_t base;  // the plane's cell that holds the panel's base
-    F middle, width;     // in cells of the plane, the middle from the base
-    F light;             // after to_cumulative_light(): that in the mapped side over that in the side
+    std::uint32_t base;  // number of the plane's cell that holds the panel's base
+    F middle, width;     // in cells of the plane, the middle from the cell `base`
+    F light;             // after to_cumulative_light(): the mapped side's width over the side's, by which the mean is multiplied
 
     PlaneSide() = default;
 
@@ -39,7 +39,8 @@ struct PlaneSide {
         light = width / wide;
     }
     /// Maps a side of the variance of two uniform spreads of `one` and `other` panel pixels. `light` is that of both spreads, where
-    /// they are not too small.
+    /// they are not too small: with B the integral of s(x), and l and s the longer and the shorter of them in cells, it is the
+    /// second difference (B(x + (l+s)/2) - B(x + (l-s)/2) - B(x - (l-s)/2) + B(x - (l+s)/2))/(l s).
     LFDSIM_FN void to_cumulative_light(const SubpixelPart<Scalar<F>>& part, int axis, F one, F other) {
         using S = Scalar<F>;
         const F per_cell = F(part.per_cell[axis]), half = F(S(0.5)), place = middle - floor(middle),
@@ -53,11 +54,13 @@ struct PlaneSide {
     }
 
   private:
+    /// Returns the cumulative light before a place, s(x), in cells.
     LFDSIM_FN static F light_before(const SubpixelPart<Scalar<F>>& part, int axis, F place) {
         const F whole = floor(place);
         return whole + min(max((place - whole - F(part.from[axis])) * F(part.per[axis]), F(0)), F(1));
     }
-    /// The integral of light_before() from 0.
+    /// Returns the integral of light_before() from 0: over whole cells, cell k having k + 1 - (from + to)/2, and over a part of
+    /// one.
     LFDSIM_FN static F sum_before(const SubpixelPart<Scalar<F>>& part, int axis, F place) {
         using S = Scalar<F>;
         const F half = F(S(0.5)), whole = floor(place), in = place - whole, from = F(part.from[axis]), to = F(part.to[axis]),
@@ -67,7 +70,7 @@ struct PlaneSide {
     }
 };
 
-/// Whether two parts have the same extent along an axis.
+/// Returns whether two parts have the same extent along an axis, so that a side mapped for one serves the other.
 template <class S>
 LFDSIM_FN bool alike(const SubpixelPart<S>& a, const SubpixelPart<S>& b, int axis) {
     return a.cell[axis] == b.cell[axis] && a.from[axis] == b.from[axis] && a.to[axis] == b.to[axis];
@@ -87,7 +90,8 @@ LFDSIM_FN void add_part(const PanelLight& panel, PanelBase<Scalar<F>> base, cons
     light.add(of_part, part.channel);
 }
 
-/// Adds the mean over boxes of a panel with subpixels, of all that shines in them, by squeeze(side, part, axis).
+/// Adds the mean over boxes of a panel with subpixels, the sum over its parts. to_cumulative_light(side, part, axis) maps the
+/// sides.
 template <class F, class Squeeze>
 LFDSIM_FN void add_subpixels(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Light<F>& light,
                              Squeeze to_cumulative_light) {
@@ -108,6 +112,7 @@ LFDSIM_FN void add_subpixels(const PanelLight& panel, const PanelBase<Scalar<F>>
         add_part(panel, base, part, side, box.weight, light);
     }
 }
+/// Adds the mean over boxes of a panel with subpixels, each box being one uniform spread.
 template <class F>
 LFDSIM_LARGE void add_subpixels(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Light<F>& light) {
     add_subpixels(panel, base, box, light,

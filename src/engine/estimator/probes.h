@@ -7,7 +7,7 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 
 constexpr int most_probes = 16;
 
-/// The first probe whose flag is set, or the last of all.
+/// Returns the first probe whose flag is set, or the last of all.
 LFDSIM_FN int first_probe(const bool (&a)[most_probes]) {
     int p = 0;
     while (p + 1 < most_probes && !a[p]) ++p;
@@ -35,7 +35,7 @@ class Neighbours {
     LFDSIM_FN explicit Neighbours(const S (&a)[most_probes]) {
         for (int p = 0; p < most_probes; ++p) padded_[pad + p] = a[p];
     }
-    /// The neighbours' numbers for F's lanes, from probe p on; anything where there is no such probe.
+    /// Returns the neighbours' numbers for F's lanes, from probe p on; anything where there is no such probe.
     template <class F>
     LFDSIM_FN F at(int p, int step) const {
         return load<F>(padded_ + pad + p + step);
@@ -46,8 +46,8 @@ class Neighbours {
     S padded_[most_probes + 2 * pad] = {};
 };
 
-/// Weighted sums over the probes, at several nodes, of four numbers of each probe, of which the last gives the weights' sum; and
-/// the means.
+/// Weighted sums over the probes, at several nodes, of four numbers of each probe, and the means. The fourth number is 1 for probes
+/// that count and 0 for others, so that its sum is that of the weights.
 template <class S, int most_nodes>
 class NodeSums {
   public:
@@ -57,7 +57,7 @@ class NodeSums {
             for (int c = 0; c < 4; ++c) part[p % 4][c] = part[p % 4][c] + weight[p] * row[p][c];
         for (int c = 0; c < 4; ++c) sum_[node][c] = sum_[node][c] + ((part[0][c] + part[2][c]) + (part[1][c] + part[3][c]));
     }
-    /// The means at the first `count` nodes; false: at one of them all weights are 0.
+    /// Computes the means of the first three numbers at the first `count` nodes; false: at one of them all weights are 0.
     LFDSIM_FN bool means(int count, S (*mean)[4]) const {
         bool empty = false;
         for (int node = 0; node < count; ++node) {

@@ -8,17 +8,18 @@ namespace lfdsim {
 
 namespace {
 
-constexpr int group_side = 4;
+constexpr int group_side = 4;                  // pixels whose errors are pooled
 constexpr std::int64_t most_points = 1 << 20;  // a pixel
-constexpr std::uint32_t points_at_once = 16;
+constexpr std::uint32_t points_at_once = 16;   // a pixel, in a repetition
 
 /// The sums of a block's points, which grow from pass to pass, with its picture and its error.
 struct BlockSums {
     RefinedBlock at;
     RefinedPicture picture{}, error{};
-    std::array<double, refined_side * refined_side * 3> sum{}, squares{};  // points
+    std::array<double, refined_side * refined_side * 3> sum{}, squares{};  // over the repetitions' pictures
 };
 
+/// Refines blocks together: all that are not good enough yet take the next repetition.
 class Refinement {
   public:
     Refinement(BlockPainter& painter, const Tile& tile, double target, const Job& job)
@@ -33,6 +34,7 @@ class Refinement {
     std::int64_t samples = 0;
 
   private:
+    /// Renders a repetition of the open blocks. Seeds are far from each other and from those that users count up (golden ratio).
     void paint(std::uint64_t repetition) {
         std::vector<RefinedBlock> at;
         for (const BlockSums* b : open_) at.push_back(b->at);
@@ -56,6 +58,7 @@ class Refinement {
                     }
                 }
             }
+            // The mean of n repetitions, and its squared standard error: (sum of squares - (sum)^2/n)/(n (n - 1))
             const double n = double(repetitions);
             for (BlockSums* b : open_) {
                 for (std::size_t i = 0; i < b->sum.size(); ++i) {
@@ -110,6 +113,7 @@ class Refinement {
     std::vector<RefinedPicture> pictures_;  // of the open blocks
 };
 
+/// Renders blocks with a CPU kernel.
 class KernelPainter : public BlockPainter {
   public:
     KernelPainter(Kernel kernel, const Tile& of, const Job& job) : kernel_(kernel), tile_(of), view_(*of.view), job_(job) {

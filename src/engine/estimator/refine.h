@@ -1,4 +1,4 @@
-// Rendering until the error is small enough. Floor 2.
+// Rendering until the error is small enough: `--target-error` in docs/model.md, "What a default picture is made of". Floor 2.
 #pragma once
 #include "base/job.h"
 #include "engine/devices/kernel.h"
@@ -9,7 +9,9 @@
 
 namespace lfdsim {
 
+/// The colours of a block of refined_side x refined_side pixels, row by row.
 using RefinedPicture = std::array<float, refined_side * refined_side * 3>;
+/// The place of such a block in the frame.
 struct RefinedBlock {
     std::int32_t x, y;  // first pixel, multiples of refined_side
 };
@@ -19,6 +21,7 @@ struct RefinedBlock {
 class BlockPainter {
   public:
     virtual ~BlockPainter() = default;
+    /// Renders each block with `points` points a pixel, by the numbers of `seed`. `pictures` has one for each block.
     virtual void paint(const std::vector<RefinedBlock>&, std::uint32_t points, std::uint64_t seed,
                        std::vector<RefinedPicture>& pictures) = 0;
 };
@@ -29,8 +32,8 @@ class BlockPainter {
 /// nothing where the job was cancelled on the way: a small target may take long. The order in which blocks are done changes no
 /// bit.
 ///
-/// Samples are points, in independent repetitions with seeds of their own, twice as many each time; the error is the standard
-/// error of their mean.
+/// Samples are points, in independent repetitions with different seeds, twice as many each time; the error is the standard error of
+/// their mean.
 std::optional<std::int64_t> refine_tile(BlockPainter&, const Tile& tile, double target, float* error, const Job&);
 
 /// Refines with a CPU kernel, block after block.

@@ -23,6 +23,7 @@ namespace lfdsim::optics::inline LFDSIM_ISA {
 /// The points of a block through which rays are followed to the diffuser: 0 its middle; 1 half a block to the right; 2 half a block
 /// down; 3 half a block to the left and up. For any linear motion the offsets of 1, 2 and 3 from the middle add up to 0.
 constexpr int block_rays = 4;
+/// Returns a point's offset from the middle, to the right or down, in half blocks.
 LFDSIM_FN int block_right(int ray) { return ray == 1 ? 1 : ray == 3 ? -1 : 0; }
 LFDSIM_FN int block_down(int ray) { return ray == 2 ? 1 : ray == 3 ? -1 : 0; }
 
@@ -37,12 +38,14 @@ struct PixelBlock {
     BaseLens<S> lens;               // the origin of x and y
     Vec3<S> to[block_rays];         // unit directions in the display's frame, before the diffuser
     Sweep<S> sweep[2][block_rays];  // along x' and y': where the diffuser sends the ray in the plane of the holes
+    /// Returns the number of nodes along an axis: 3 of blocks of 16 x 16 pixels, 2 of smaller ones.
     LFDSIM_FN int nodes() const { return 2 * reach > FilteredLimits::node_step ? 2 * reach / FilteredLimits::node_step + 1 : 2; }
     bool alive;  // all rays reach the display, evenly spaced on it, and strata may treat the diffuser's two turns as independent
 };
 
-/// Whether all rays go down, at no grazing angle, after the diffuser's largest turn. A ray turned past the horizontal does not
-/// meet the plane of the holes, so it has no place in a stratum.
+/// Returns whether all rays go down, at no grazing angle, after the diffuser's largest turn a: with the slope m = tan(phi) before
+/// it, cos(phi + a)/cos(phi) = cos(a) - m sin(a) exceeds FilteredLimits::steepest. A ray turned past the horizontal does not meet
+/// the plane of the holes, so it has no place in a stratum.
 template <class S>
 LFDSIM_FN bool all_go_down(const TracedDisplay<S>& display, const PixelBlock<S>& block) {
     for (int a = 0; a < 2; ++a) {
@@ -54,9 +57,9 @@ LFDSIM_FN bool all_go_down(const TracedDisplay<S>& display, const PixelBlock<S>&
     return true;
 }
 
-/// Whether strata may treat the diffuser's two turns as independent, as if each moved the ray along one axis only: the light that
-/// comes from any point is then misjudged by less than the share `most`. Tested at the four corners of the sample domain, from the
-/// block's middle.
+/// Returns whether strata may treat the diffuser's two turns as independent, as if each moved the ray along one axis only: the
+/// light that comes from any point is then misjudged by less than the share `most`. Tested at the four corners of the sample
+/// domain, from the block's middle.
 ///
 /// The diffuser turns the unit direction i by a about y, after which its z component is z', then by b about x, to t. As the first
 /// turn keeps y and the second x, z'^2 = 1 - t_x^2 - i_y^2. The Jacobian of the two turns gives the solid angle |z'| da db; seen
@@ -83,7 +86,7 @@ LFDSIM_FN bool turns_independent(const TracedDisplay<S>& display, const PixelBlo
     return true;
 }
 
-/// The block of side x side pixels whose first is (column, row). Blocks lie on a grid of the whole frame.
+/// Returns the block of side x side pixels whose first is (column, row). Blocks lie on a grid of the whole frame.
 template <class S>
 LFDSIM_FN PixelBlock<S> pixel_block(const TracedDisplay<S>& display, const RayOrigin& view, int side, S most_misjudged,
                                     std::int32_t column, std::int32_t row) {
@@ -102,6 +105,7 @@ LFDSIM_FN PixelBlock<S> pixel_block(const TracedDisplay<S>& display, const RayOr
         block.sweep[1][k] = {S(y - block.lens.y), S(-d[1] / d[2]), display.holes_below[1], S(sense(1))};
         block.alive = block.alive && z < -1e-6;
     }
+    // Linear motion of the rays over the block: the offsets of the three outer ones from the middle add up to 0.
     for (int a = 0; a < 2 && block.alive; ++a) {
         const Sweep<S>* s = block.sweep[a];
         const S bend = s[1].at + s[2].at + s[3].at - S(3) * s[0].at,
@@ -117,12 +121,13 @@ LFDSIM_FN PixelBlock<S> pixel_block(const TracedDisplay<S>& display, const RayOr
 template <class S>
 struct Probes {
     S at_x[most_probes], at_y[most_probes], x[most_probes], y[most_probes];
-    S column[most_probes], row[most_probes], weight[most_probes];  // weight 0: lost
+    S column[most_probes], row[most_probes], weight[most_probes];  // the ends; the transmitted share, 0: lost
     S cell_i[most_probes], cell_j[most_probes];                    // the lens
     S in[most_probes];                                             // 1: lies in the part of the stratum that is probed, else 0
     S has_right[most_probes], has_left[most_probes], has_above[most_probes], has_below[most_probes];  // 1: has that neighbour
 
-    /// per_axis x per_axis probes, row after row. The rest count as lost: sums include them, but a narrow packet never traces them.
+    /// Arranges per_axis x per_axis probes, row after row. The rest count as lost: sums include them, but a narrow packet never
+    /// traces them.
     LFDSIM_FN void lay_out(int per_axis) {
         for (int p = 0; p < most_probes; ++p) {
             column[p] = row[p] = weight[p] = cell_i[p] = cell_j[p] = in[p] = S(0);
@@ -173,14 +178,15 @@ struct SharedFootprint {
     bool stationary;                                   // wide: the footprint is the same for all pixels of the block
     int nodes;                                         // wide: along an axis of the block; 1: its light is the same everywhere
 };
+/// A footprint with the light of a wide one.
 template <class S>
 struct LitFootprint : SharedFootprint<S> {
     alignas(16) S colour[most_nodes * most_nodes][4];  // wide: the light at its nodes; interpolated between them
 };
 
-/// The footprint of a stratum's per_axis x per_axis probes, as far as they determine it: position, spread, transmitted share. It is
-/// unlit if no probe reaches the panel, unshared if those that do pass several lenses, and else counts as narrow until its width is
-/// tested.
+/// Returns the footprint of a stratum's per_axis x per_axis probes, as far as they determine it: position, spread, transmitted
+/// share. It is unlit if no probe reaches the panel, unshared if those that do pass several lenses or none is in the part, and else
+/// counts as narrow until its width is tested.
 template <class S>
 LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
     using State = typename SharedFootprint<S>::State;
@@ -199,7 +205,7 @@ LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
         return sum_of(t) * per;
     };
     const S column = probes.column[one], row = probes.row[one], cell_i = probes.cell_i[one], cell_j = probes.cell_j[one];
-    for (int p = 0; p < most_probes; ++p) {  // small numbers
+    for (int p = 0; p < most_probes; ++p) {  // small numbers, so that squares lose no digits
         c[p] = probes.column[p] - column;
         r[p] = probes.row[p] - row;
     }
@@ -213,6 +219,7 @@ LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
     b.width = sqrt(max(spread * (mean([&](int p) { return c[p] * c[p]; }) - mean_c * mean_c), S(0)));
     b.height = sqrt(max(spread * (mean([&](int p) { return r[p] * r[p]; }) - mean_r * mean_r), S(0)));
     const S others = mean([&](int p) { return probes.cell_i[p] == cell_i && probes.cell_j[p] == cell_j ? S(0) : S(1); });
+    // The lit probe nearest to the middle of the lit ones: its point is the one through which the motion is followed.
     for (int p = 0; p < most_probes; ++p) {
         const S dx = probes.x[p] - x, dy = probes.y[p] - y;
         t[p] = lit[p] > S(0) ? dx * dx + dy * dy : S(1e30);
@@ -260,6 +267,8 @@ template <class S>
 struct ProbeBoxes {
     S width[most_probes], height[most_probes], weight[most_probes];  // panel pixels; 0: lost
 
+    /// Sets the boxes' widths and heights: the distances on the panel to the next lit probe (else to the one before) along both
+    /// axes of the grid of probes, added up.
     template <class F>
     LFDSIM_FN void make(const Probes<S>& probes, int per_axis) {
         S lit[most_probes];
@@ -286,7 +295,8 @@ struct ProbeBoxes {
         }
     }
 
-    /// The light of each box, moved by (column, row): R, G, B and whether the probe lies in the part.
+    /// Looks up the light of each box, moved by (column, row), times its weight: R, G, B and 1 if the probe lies in the part, else
+    /// 0.
     template <class F>
     LFDSIM_FN void look(const Probes<S>& probes, const PanelLight& panel, const PanelBase<S>& base, S column, S row,
                         S (&light)[most_probes][4]) const {
@@ -303,8 +313,8 @@ struct ProbeBoxes {
 };
 
 /// Derives a footprint's motion per picture pixel from rays p .. p + 2, which go through its probe's point from the block's points
-/// 1, 2 and 3. The footprint becomes unshared if the motion is not linear, or a ray is lost or ends under another lens, unless it
-/// is wider than FilteredLimits::always_stationary.
+/// 1, 2 and 3, `reach` pixels from the middle. The footprint becomes unshared if the motion is not linear, or a ray is lost or ends
+/// under another lens, unless it is wider than FilteredLimits::always_stationary.
 template <class S>
 LFDSIM_FN void follow(SharedFootprint<S>& b, const Probes<S>& rays, int p, int reach) {
     const S column = b.probe_column, row = b.probe_row, per = S(1) / S(reach);

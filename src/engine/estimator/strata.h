@@ -11,29 +11,30 @@
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
 /// The position along one axis at which a ray meets the plane of the lenses' holes, when the diffuser turns it by the angle a about
-/// the other axis (its second turn is neglected): its slope, lateral mm per mm of descent, is tan(phi + a) or tan(phi - a), phi
-/// before the turn.
+/// the other axis (its second turn is neglected): its slope, lateral mm per mm of descent, is tan(phi + a) or tan(phi - a), with
+/// phi before the turn. Angles are given by their tangents: tan(phi + a) = (tan phi + tan a)/(1 - tan phi tan a).
 template <class F>
 struct Sweep {
     F at;                     // mm from the axis of the base lens: where the ray meets the diffuser
     F slope;                  // before the turn: tan(phi)
     Scalar<F> height, sense;  // mm, of the diffuser above the holes; +1 or -1: what a positive angle does to the slope
 
+    /// Returns the slope after a turn by the angle of this tangent.
     LFDSIM_FN F turned(F tangent) const {
         const F t = F(sense) * tangent;
         return (slope + t) / (F(1) - slope * t);
     }
     LFDSIM_FN F place(F tangent) const { return at + F(height) * turned(tangent); }
-    /// The tangent of the angle that sends the ray to `place`.
+    /// Returns the tangent of the angle that sends the ray to `place`.
     LFDSIM_FN F tangent(F place) const {
         const F to = (place - at) * F(Scalar<F>(1) / height);
         return F(sense) * ((to - slope) / (F(1) + slope * to));
     }
 };
-/// Turning about y by a positive angle sends a ray towards -x; about x, towards +y.
+/// Returns Sweep::sense of an axis: a turn about y by a positive angle sends a ray towards -x; one about x, towards +y.
 LFDSIM_FN int sense(int axis) { return axis == 0 ? -1 : 1; }
-/// Half the area of the unit circle between x = 0 and t: (t sqrt(1 - t^2) + asin t) / 2, odd; |t| is cut to 1. The arc sine is
-/// Abramowitz and Stegun's 4.4.46: error 2e-8.
+/// Returns half the area of the unit circle between x = 0 and t: (t sqrt(1 - t^2) + asin t) / 2, odd; |t| is cut to 1. The arc sine
+/// is Abramowitz and Stegun's 4.4.46: error 2e-8.
 template <class F>
 LFDSIM_FN F circle_integral(F t) {
     using S = Scalar<F>;
@@ -55,7 +56,8 @@ struct Span {
     F integral_from, integral_to;  // circle_integral of them
 };
 
-/// Area of {0 < X < x, 0 < Y < y} within the unit circle, odd in x and y.
+/// Returns the area of {0 < X < x, 0 < Y < y} within the unit circle, odd in x and y: x y if the corner (x, y) lies in the circle,
+/// else I(x) + I(y) - pi/4 with the circle_integral I. Both |x| and |y| may exceed 1.
 template <class F>
 LFDSIM_FN F corner_in_circle(F x, F integral_x, F y, F integral_y) {
     using S = Scalar<F>;
@@ -65,8 +67,8 @@ LFDSIM_FN F corner_in_circle(F x, F integral_x, F y, F integral_y) {
     return select(x * x + y * y <= F(1), x * y, signed_rest);
 }
 
-/// The share of a stratum's rectangle that a round hole covers. For a small rectangle, where the difference of areas would lose its
-/// digits, the hole's edge is taken as straight.
+/// Returns the share of a stratum's rectangle that a round hole covers; 0 where an end has passed the other. For a small rectangle,
+/// where the difference of areas would lose its digits, the hole's edge is taken as straight.
 template <class F>
 LFDSIM_FN F hole_coverage(const Span<F>& a, const Span<F>& b) {
     using S = Scalar<F>;
@@ -81,7 +83,7 @@ LFDSIM_FN F hole_coverage(const Span<F>& a, const Span<F>& b) {
         const F x = F(S(0.5)) * (a.to + a.from), y = F(S(0.5)) * (b.to + b.from), rho = max(sqrt(x * x + y * y), F(S(1e-6)));
         const F reach = max(abs(x) * width + abs(y) * height, F(S(1e-12)));  // rho times the rectangle's extent across the edge
         cover = select(small, F(S(0.5)) + (F(1) - rho) * rho / reach, cover);
-        // Returns, for a long, thin rectangle, the part within the chord along it.
+        // In a long, thin rectangle the edge is not straight: the part within the chord of the circle along it counts.
         auto chord = [](F along_from, F along_to, F across) {
             const F c = sqrt(max(F(1) - across * across, F(0)));
             return max(min(along_to, c) - max(along_from, -c), F(0)) / max(along_to - along_from, F(S(1e-6)));

@@ -24,7 +24,9 @@ namespace {
 using optics::SummedImage;
 using Range = tbb::blocked_range<std::int64_t>;
 
-// One pixel of each cell of a panel; black where that lies outside of it, or where only whole cells show it.
+/// Returns the picture of one pixel of each cell of a panel (docs/model.md, "Black matrix and subpixels"). It is black where that
+/// pixel lies outside the panel, or where its cell is cut off by the panel's border and only whole cells show it
+/// (PanelPlane::whole).
 Texels picked(const SummedImage& from, const PanelPlane& plane, tbb::task_arena& arena) {
     const std::int64_t columns = from.columns, rows = from.rows, across = plane.cell[0], down = plane.cell[1];
     Texels to((columns + across - 1) / across, (rows + down - 1) / down);
@@ -46,7 +48,7 @@ Texels picked(const SummedImage& from, const PanelPlane& plane, tbb::task_arena&
     return to;
 }
 
-// A power of two, so that light up to 1 is 1 at most after division by it.
+/// Returns the smallest power of two, at least 1, by which the image's light is 1 at most after division.
 float scale_of(const SummedImage& image) {
     const float* const texels = image.texels;
     const float most = tbb::parallel_reduce(
@@ -59,7 +61,7 @@ float scale_of(const SummedImage& image) {
     return std::exp2(std::ceil(std::log2(most)));
 }
 
-// The summed-area table of an image, and the light of one unit.
+/// The summed-area table of an image (docs/model.md, "Filtered estimator"), and the light of one unit.
 struct SummedTable {
     std::unique_ptr<std::uint32_t[]> sums;
     float light_per_unit;
@@ -71,6 +73,7 @@ struct SummedTable {
         arena.execute([&] {
             light_per_unit = scale_of(image) / float(SummedImage::units);
             const float units = 1 / light_per_unit;
+            // Along each row, then down the columns
             std::fill_n(sums.get(), pitch, 0u);
             tbb::parallel_for(Range(0, rows, 16), [&](const Range& some) {
                 for (std::int64_t r = some.begin(); r < some.end(); ++r)
@@ -86,6 +89,7 @@ struct SummedTable {
 
   private:
     std::uint32_t* row(std::int64_t r, std::int64_t pitch) { return sums.get() + r * pitch; }
+    /// Writes the sums of one row from its left end on, the first being 0. They wrap: differences of sums modulo 2^32 stay exact.
     static void sum_row(const float* light, std::int64_t columns, float units, std::uint32_t* to) {
         std::uint32_t sum[4] = {};
         std::fill_n(to, 4, 0u);
@@ -94,6 +98,7 @@ struct SummedTable {
     }
 };
 
+/// The planes that a reading of a panel needs. `all` has the panel first and points into the other two.
 struct SummedPlanes {
     std::vector<Texels> picked;
     std::vector<SummedTable> tables;
@@ -111,9 +116,9 @@ PanelReading panel_reading(const Display& display) {
 }
 
 struct SummedPanel::Parts {
-    SummedImage image;
+    SummedImage image;  // the panel, without a table
     tbb::task_arena arena;
-    std::mutex mutex;
+    std::mutex mutex;  // of `of`
     std::map<PanelReading, SummedPlanes> of;
 
     SummedPlanes made(const PanelReading& reading) {

@@ -7,7 +7,7 @@
 namespace lfdsim {
 
 /// A panel image and what is made of it at first use: a summed-area table for each plane. A table takes as much memory as the image
-/// it sums, 16 bytes a pixel. The panel image must outlive it, unchanged.
+/// it sums, 16 bytes a pixel. The panel image must outlive this object, unchanged. It may be used by several threads.
 class SummedPanel {
   public:
     /// Keeps a reference to the panel; tables are made at first use. `threads`: those that make them, 0: all.
