@@ -89,11 +89,12 @@ class FilteredBlock {
             }
     }
 
-    /// Computes, for a packet of places from number k on, the light of wide footprints and the weights of narrow ones.
+    /// Computes, for a packet of places from number k on, row by row, the light of wide footprints and the weights of narrow ones.
+    /// Places beyond the last one repeat its row; nothing reads them.
     void look_at_places(int k) {
         constexpr int lanes = Packet::lanes;
         const S per_reach = S(1) / S(block.reach);
-        S right[lanes], down[lanes];
+        S right[lanes], down[lanes];  // picture pixels from the block's middle
         for (int n = 0; n < lanes; ++n) {
             right[n] = S((k + n) % per_axis * place_step - block.reach);
             down[n] = S(optics::min((k + n) / per_axis, per_axis - 1) * place_step - block.reach);
@@ -111,7 +112,7 @@ class FilteredBlock {
             for (int c = 0; c < 3; ++c) memory.light[k + n][c] = colour[c][n];
     }
 
-    /// Interpolates the light at places for the pixels between them.
+    /// Interpolates the light at places bilinearly for the pixels between them, whose centres are half a pixel from the corners.
     void interpolate() {
         const S per = S(1) / S(place_step);
         const auto between = [](S a, S b, S share) { return a + (b - a) * share; };
@@ -151,7 +152,7 @@ class FilteredBlock {
             below[k] = S(k / Packet::width) + S(0.5);
         }
         const F right = optics::load<F>(right_of), down = optics::load<F>(below);
-        const F dx = right + F(S(x - x0 - block.reach)), dy = down + F(S(y - y0 - block.reach));
+        const F dx = right + F(S(x - x0 - block.reach)), dy = down + F(S(y - y0 - block.reach));  // from the block's middle
         optics::Light<F> boxes;
         if (per_axis > 0) {
             add_narrow(x - x0, y - y0, right, down, dx, dy, boxes);
@@ -167,7 +168,8 @@ class FilteredBlock {
         }
     }
 
-    /// Adds the light of narrow footprints for the packet whose first pixel is (x, y) of the block, by their weights at places.
+    /// Adds the light of narrow footprints for the packet whose first pixel is (x, y) of the block; their weights are interpolated
+    /// bilinearly between the four places around the packet.
     void add_narrow(int x, int y, F right, F down, F dx, F dy, optics::Light<F>& to) const {
         const int corner = y / place_step * per_axis + x / place_step;
         const F per = F(S(1) / S(place_step)), s = (right + F(S(x % place_step))) * per, t = (down + F(S(y % place_step))) * per;
@@ -181,7 +183,8 @@ class FilteredBlock {
         to = sum;
     }
 
-    /// Adds the light of all footprints for the pixels at (dx, dy) of the block; that of wide ones to `flat`.
+    /// Adds the light of all footprints for the pixels at (dx, dy) picture pixels from the block's middle: of narrow ones to
+    /// `boxes`, of wide ones to `flat`.
     void add_all(F dx, F dy, optics::Light<F>& boxes, F (&flat)[3]) const {
         const S reach = S(block.reach), per_reach = S(1) / reach;
         const F right = dx * F(per_reach), down = dy * F(per_reach);
@@ -192,10 +195,11 @@ class FilteredBlock {
         });
     }
 
-    /// Adds the light of a wide footprint at (dx, dy), -1 .. 1 across the block: bilinear between its nodes.
+    /// Adds `weight` times the light of a wide footprint at (dx, dy), -1 .. 1 across the block: bilinear between its nodes.
     LFDSIM_FN static void add_wide(const LitFootprint& b, F dx, F dy, F weight, F (&to)[3]) {
         for (int c = 0; c < 3; ++c) to[c] = to[c] + weight * wide_light(b, dx, dy, c);
     }
+    /// Returns colour c of that light. Nodes are at the ends of the block and, if there are three, in its middle.
     LFDSIM_FN static F wide_light(const LitFootprint& b, F dx, F dy, int c) {
         const auto between = [](S low, S middle, S high, F at) {
             return F(middle) + F(high - middle) * optics::max(at, F(0)) + F(middle - low) * optics::min(at, F(0));
@@ -213,7 +217,8 @@ class FilteredBlock {
         return row[1] + (row[2] - row[1]) * optics::max(dy, F(0)) + (row[1] - row[0]) * optics::min(dy, F(0));
     }
 
-    /// Adds the box of a narrow footprint at (dx, dy) picture pixels from the block's middle.
+    /// Adds `weight` times the light of a narrow footprint, one box, for the pixels at (dx, dy) picture pixels from the block's
+    /// middle. Its position moves linearly over the block.
     LFDSIM_FN void add_box(const LitFootprint& b, F dx, F dy, F weight, optics::Light<F>& light) const {
         const F column = F(b.column) + F(b.column_right) * dx + F(b.column_down) * dy,
                 row = F(b.row) + F(b.row_right) * dx + F(b.row_down) * dy;
@@ -229,8 +234,9 @@ class FilteredBlock {
         optics::add_light(tile.panel, block.lens.panel, box, light);
     }
 
-    /// Calls f(footprint, its share of the light) for each footprint, with the shares of the lanes at (dx, dy) of the block, -1
-    /// .. 1.
+    /// Calls f(footprint, its share of the light) for each footprint, in their order, with the shares of the lanes at (dx, dy) of
+    /// the block, -1 .. 1: share of the domain x share of it that the hole covers, or does not cover, x transmittance. Footprints
+    /// that no lane sees are passed with the share 0, as f() counts them.
     template <class Do>
     LFDSIM_FN void for_footprints(F dx, F dy, const Do& f) const {
         optics::Span<F> across[max_strata];

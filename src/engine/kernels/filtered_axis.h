@@ -18,11 +18,12 @@ struct Gradient {
     S middle, right, down;
 
     static Gradient of(S at_middle, S at_right, S at_bottom) { return {at_middle, at_right - at_middle, at_bottom - at_middle}; }
-    /// The value at (dx, dy) of the block, -1 .. 1 across it.
+    /// Returns the value at (dx, dy) of the block, -1 .. 1 across it, right and down.
     template <class G>
     LFDSIM_FN G at(G dx, G dy) const {
         return G(middle) + G(right) * dx + G(down) * dy;
     }
+    /// Returns the most by which a value in the block differs from that at its middle.
     S reach() const { return optics::abs(right) + optics::abs(down); }
 };
 
@@ -61,7 +62,8 @@ struct EvenCuts {
     }
 };
 
-/// Cuts one axis for a block. False: the ends of the domain move too far over the block, or a stratum looks through several lenses.
+/// Cuts one axis, 0 or 1, for a block. `sweep`: those of the block's four points along that axis. False: the ends of the domain
+/// move too far over the block, or a stratum looks through several lenses.
 bool cut_axis(const optics::TracedDisplay<S>& display, const optics::Sweep<S>* sweep, int axis, const EvenCuts& even, Axis& a) {
     const Lattice<S>& lattice = display.lattice;
     const S pitch = lattice.pitch[axis], per_pitch = lattice.per_pitch[axis], half = lattice.half_pitch[axis],
@@ -75,6 +77,7 @@ bool cut_axis(const optics::TracedDisplay<S>& display, const optics::Sweep<S>* s
         for (int k = 0; k < 3; ++k) u[k] = optics::diffuser_uniform(display, axis, sweep[k].tangent(place));
         return Cut{Gradient::of(u[0], u[1], u[2]), place};
     };
+    // The ends of the domain in the plane of the holes; u may run against the axis (`along`).
     const Gradient start = place_of(0), end = place_of(even.strata);
     const S reach = start.reach(), along = end.middle > start.middle ? S(1) : S(-1);
     if (!(along * (end.middle - start.middle) > reach)) return false;
@@ -86,6 +89,7 @@ bool cut_axis(const optics::TracedDisplay<S>& display, const optics::Sweep<S>* s
     // Where there are one or two borders more than cuts, each gets a cut: a block near a lens's border may see the next one too.
     const bool at_borders = borders >= S(even.strata) && borders <= S(even.strata + 1) && even.strata + 2 < max_strata;
     const int strata = at_borders ? int(borders) + 1 : even.strata;  // at most more_strata more
+    // Cut j: on a border between lenses if one is less than a step away, else evenly spaced
     const auto cut_of = [&](int j) {
         if (j == 0) return Cut{{-1, 0, 0}, start.middle};
         if (j == strata) return Cut{{1, 0, 0}, end.middle};
@@ -99,6 +103,7 @@ bool cut_axis(const optics::TracedDisplay<S>& display, const optics::Sweep<S>* s
             u.middle >= (j == 1 ? -1 - spread : even.u[j] - step) && u.middle < (j == strata - 1 ? 1 + spread : even.u[j] + step);
         return snaps ? at_border : cut_at(even_place);
     };
+    // The cuts and the strata between them, each within the cell of the lens at its middle
     a.strata = strata;
     a.first = start;
     a.last = end;
@@ -134,6 +139,8 @@ class Spans {
           most(optics::max(start, end)),
           place(start) {}
 
+    /// Returns the next stratum: its share of the axis is half its extent in u, as u runs from -1 to 1. For pixels that do not see
+    /// it the share is 0.
     optics::Span<F> next() {
         optics::Span<F> span;
         F next_u = F(1), next_place = end;

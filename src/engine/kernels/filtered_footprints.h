@@ -77,7 +77,7 @@ class FootprintMaker {
         }
     }
 
-    /// Makes all footprints of the block, row after row. False: one is unshared.
+    /// Makes all footprints of the block, row after row of strata. False: one is unshared.
     bool make_all(SharedFootprints* footprints) {
         const int across = axis[0].strata, count = across * axis[1].strata;
         const auto unshared = [](const SharedFootprints& b) {
@@ -131,12 +131,13 @@ class FootprintMaker {
         optics::trace_probes<F>(display, block, probes, per_axis * per_axis);
     }
 
-    /// The footprint of a part of stratum (i, j), inside its hole or beside it. The motion of a narrow one through the hole is left
-    /// to follow(); the light of a wide one goes to `colour`.
+    /// Returns the footprint of a part of stratum (i, j), inside its hole or beside it. The motion of a narrow one through the hole
+    /// is left to follow(); the light of a wide one at its nodes goes to `colour`.
     Footprint probe(int i, StratumRange x, int j, StratumRange y, bool inside, S (*colour)[4]) {
         trace(i, x, j, y, inside);
         Footprint b = optics::sum_up(probes, per_axis);
         if (b.state != State::narrow) return b;
+        // Narrow or wide? The motion of a wide one is needed at once, as its light is looked up along it.
         const S size = optics::max(b.width, b.height);
         bool wide = size > S(FilteredLimits::narrow);
         if (wide && !display.emission.whole && size < S(FilteredLimits::masked)) {
@@ -153,7 +154,7 @@ class FootprintMaker {
         }
         if (!wide) return b;
         b.state = State::wide;
-        // The visible part of an outermost stratum changes over the block.
+        // Nodes, at which the light is computed. The visible part of an outermost stratum changes over the block.
         const bool ends = axis[0].stratum[i].at_edge || axis[1].stratum[j].at_edge;
         b.nodes = !b.stationary ? block.nodes() : ends ? 2 : 1;
         Sums sums;
@@ -169,8 +170,8 @@ class FootprintMaker {
             if (parts > 1) trace(i, here_x, j, here_y, inside);
             add_nodes(b, i, here_x, j, here_y, sums);
         }
-        b.weight = 1;
-        // Did the first probes meet only points at the edge of the part?
+        b.weight = 1;  // the light at nodes includes the transmitted shares
+        // Did the finer probes find no point of the part, as the first ones met only points at its edge?
         if (!sums.means(b.nodes * b.nodes, colour)) b.state = State::unshared;
         return b;
     }
@@ -190,6 +191,7 @@ class FootprintMaker {
                                right = visible_part(a, strata[a], all, 1, 0), down = visible_part(a, strata[a], all, 0, 1);
             if (!(here.length() > S(FilteredLimits::part_visible) * all.length()))
                 continue;  // other pixels see parts of it that differ too much from this one
+            // How far the visible part's middle is from that of the stratum, and how it moves per picture pixel; mm
             const S from_all = here.middle() - all.middle(), per = S(1) / S(block.reach),
                     moves[2] = {(right.middle() - here.middle()) * per, (down.middle() - here.middle()) * per};
             b.column = b.column + slopes.column[a] * from_all;
@@ -198,6 +200,7 @@ class FootprintMaker {
                 b.part_column[k] = b.part_column[k] + slopes.column[a] * moves[k];
                 b.part_row[k] = b.part_row[k] + slopes.row[a] * moves[k];
             }
+            // W^2 - slope^2 (all^2 - here^2): the variances of box and visible part differ by that of the rest.
             const S less = all.length() * all.length() - here.length() * here.length();
             width = width - slopes.column[a] * slopes.column[a] * less;
             height = height - slopes.row[a] * slopes.row[a] * less;
@@ -206,14 +209,15 @@ class FootprintMaker {
         b.height = optics::sqrt(optics::max(height, S(0)));
     }
 
-    /// The ends of the domain of a pixel at (dx, dy) of the block, -1 .. 1, along axis a, from the axis of a stratum's lens.
+    /// Returns the ends of the domain of a pixel at (dx, dy) of the block, -1 .. 1, along axis a, from the axis of a stratum's
+    /// lens, mm.
     StratumRange ends_of(int a, int stratum, S dx, S dy) const {
         const S start = axis[a].first.at(dx, dy), end = axis[a].last.at(dx, dy), at = axis[a].stratum[stratum].axis;
         return {optics::min(start, end) - at, optics::max(start, end) - at};
     }
 
-    /// The part of a range of a stratum along axis a that a pixel at (dx, dy) of the block, -1 .. 1, sees; an empty range at the
-    /// nearest end if it sees none.
+    /// Returns the part of a range of a stratum along axis a that a pixel at (dx, dy) of the block, -1 .. 1, sees; an empty range
+    /// at the nearest end if it sees none.
     StratumRange visible_part(int a, int stratum, StratumRange r, S dx, S dy) const {
         const StratumRange visible = ends_of(a, stratum, dx, dy);
         return {optics::min(optics::max(r.from, visible.from), r.to), optics::max(optics::min(r.to, visible.to), r.from)};
@@ -233,7 +237,7 @@ class FootprintMaker {
             for (int column = 0; column < b.nodes; ++column) {
                 const S right = first + S(column) * step, down = first + S(row) * step;  // -1 .. 1
                 const int n = row * b.nodes + column;
-                if (n == 0 || !b.stationary) {
+                if (n == 0 || !b.stationary) {  // a stationary footprint has the same light at all nodes
                     const S move = b.stationary ? S(0) : reach;
                     boxes.look<F>(probes, panel, base, (b.column_right * right + b.column_down * down) * move,
                                   (b.row_right * right + b.row_down * down) * move, light);

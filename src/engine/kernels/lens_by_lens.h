@@ -40,7 +40,7 @@ class LensByLens : VisibleLenses {
     /// Renders the group of 4 x 4 pixels whose first is (x, y) of the frame.
     void render(std::int32_t x, std::int32_t y) {
         using Packet = optics::Block<F>;
-        const bool by_lens = list_lenses(x, y);
+        const bool by_lens = list_lenses(x, y);  // else by points: too many lenses, or no domain to cut
         for (std::int32_t row = y; row < y + side; row += Packet::height)
             for (std::int32_t column = x; column < x + side; column += Packet::width) {
                 if (column >= tile.x1 || row >= tile.y1 || column + Packet::width <= tile.x0 || row + Packet::height <= tile.y0)
@@ -57,7 +57,7 @@ class LensByLens : VisibleLenses {
     }
 
   private:
-    /// The light of a packet by 16 points for each sample, where there is no list of lenses.
+    /// Returns the light of a packet by 16 points for each sample, where there is no list of lenses.
     optics::Light<F> light_of_points(const optics::PixelRays<F>& pixels, std::int32_t column, std::int32_t row) const {
         std::uint32_t lane[optics::Block<F>::lanes];
         for (int k = 0; k < optics::Block<F>::lanes; ++k)
@@ -76,7 +76,7 @@ class LensByLens : VisibleLenses {
         return light;
     }
 
-    /// The light of a packet of the group.
+    /// Returns the light of a packet of the group: for each cell of the other coordinates' grids, the sum over the lenses.
     optics::Light<F> light_of(const optics::PixelRays<F>& pixels) {
         optics::Light<F> light;
         const int domain_pair = domain / 2;
@@ -93,7 +93,7 @@ class LensByLens : VisibleLenses {
                     const auto middle = [n](int at) { return (S(at) + S(0.5)) * (S(2) / S(n)) - S(1); };
                     coordinates.of[2 * other[k]] = F(middle(cell % n));
                     coordinates.of[2 * other[k] + 1] = F(middle(cell / n));
-                    // A disk's variance is that of a box 3^(1/2) radii wide.
+                    // A disk's variance along an axis, r^2/4, is that of a box sqrt(3) r wide.
                     width[2 * other[k]] = width[2 * other[k] + 1] = other[k] == 2 ? S(1.7320508) / S(n) : S(2) / S(n);
                 }
                 const DomainMap<F> map = map_of(pixels, coordinates);
@@ -103,10 +103,12 @@ class LensByLens : VisibleLenses {
         return light;
     }
 
-    /// Adds the light that comes through one lens. `share`: that of the other coordinates' cell.
+    /// Adds the light that comes through one lens. `coordinates` are those of the middle of a cell of the other pairs, `width` that
+    /// cell's size in its coordinates, `share` its share of their domain, `map` the map there.
     void add_lens(const optics::PixelRays<F>& pixels, SampleCoordinates<F> coordinates, const DomainMap<F>& map,
                   const VisibleLens& lens, const S (&width)[optics::sampler_dimensions], F share, optics::Light<F>& light) {
         const F zero = F(0), one = F(1), half = F(S(0.5));
+        // The box about the lens's outline within the domain
         const optics::LensOutline<F> outline = outline_of(map, {lens.i, lens.j});
         optics::Box<F> bounds{F(S(1e30)), F(S(-1e30)), F(S(1e30)), F(S(-1e30))};
         for (int k = 0; k < outline.count; ++k)
@@ -124,7 +126,7 @@ class LensByLens : VisibleLenses {
                   optics::min(bounds.high, one)};
         const optics::Mask<F> visible = (bounds.right > bounds.left) && (bounds.high > bounds.low) && pixels.alive;
         if (!any(visible)) return;
-        // Cells about as wide as those of the whole domain.
+        // The box is cut into cells about as wide as those of the whole domain: max(1, ceil(n R/2 - 0.3)) of a box R wide.
         const auto cells = [&](F size) {
             const F n = F(S(0.5) * S(divisions[domain / 2])) * size - F(S(FilteredLimits::cell_to_spare));
             return optics::max(optics::min(zero - optics::floor(zero - n), F(S(most_divisions))), one);
@@ -138,6 +140,7 @@ class LensByLens : VisibleLenses {
             while (any(a > F(S(n)))) ++n;
             return n;
         };
+        // A ray through the middle of each cell's part in the lens
         const int all_columns = most(columns), all_rows = most(rows);
         for (int j = 0; j < all_rows; ++j)
             for (int i = 0; i < all_columns; ++i) {
@@ -156,10 +159,11 @@ class LensByLens : VisibleLenses {
                 part.end = trace(pixels, coordinates, counts);
             }
         const optics::Vec2<S> axis = optics::axis_of(display.lattice, optics::Cell<S>{lens.i, lens.j});
-        // The spread of each pair of the other coordinates.
+        // The spread of each pair of the other coordinates on the panel
         optics::PanelCovariance<F> others[3] = {};
         for (int d = 0; d < dimensions; ++d)
             if (d / 2 != domain / 2) others[d / 2].add(F(lens.by.column[d] * width[d]), F(lens.by.row[d] * width[d]));
+        // The footprint of each part: how far its edges are apart on the panel, by differences to the rays of neighbouring cells
         for (int j = 0; j < all_rows; ++j)
             for (int i = 0; i < all_columns; ++i) {
                 const LensPart& part = memory.part[j * all_columns + i];
@@ -202,8 +206,10 @@ class LensByLens : VisibleLenses {
             }
     }
 
-    /// Adds the light about the end of a part's ray. Where pixels shine over their whole area, an oblique parallelogram is read as
-    /// boxes side by side; the widest spread is the box, and all others together are two points of Gauss's rule along each axis.
+    /// Adds the light about the end of a part's ray. `edge`: the parallelogram's edges along u and v, as columns and rows;
+    /// `others`: the spreads by the other pairs of coordinates. Where pixels emit over their whole area, an oblique parallelogram
+    /// is read as boxes side by side; the widest spread is the box, and all others together are two points of Gauss's rule along
+    /// each axis.
     LFDSIM_FN void add_boxes(const optics::PixelRays<F>& pixels, const LensPart& part, const F (&edge)[2][2],
                              const optics::PanelCovariance<F> (&others)[3], optics::Light<F>& light) const {
         using L = FilteredLimits;
@@ -214,7 +220,7 @@ class LensByLens : VisibleLenses {
             other.h2 = other.h2 + of.h2;
             other.c = other.c + of.c;
         }
-        // Pieces along the more oblique edge.
+        // The parallelogram is cut into pieces along its more oblique edge.
         const auto pieces_along = [&](int a) {
             const int across = 1 - a;
             const F upright = optics::sqrt(edge[across][across] * edge[across][across] + (across == 0 ? other.w2 : other.h2));
@@ -227,8 +233,9 @@ class LensByLens : VisibleLenses {
         const optics::Mask<F> by_u = pieces_u > pieces_v;
         pieces_u = select(by_u, pieces_u, one);
         pieces_v = select(by_u, one, pieces_v);
+        // With a black matrix or subpixels, light that spreads along an oblique line is read along it, and other light as one box.
         optics::Mask<F> counts = part.end.alive;
-        if (!tile.panel.whole) {  // gaps distinguish an oblique line from boxes
+        if (!tile.panel.whole) {
             optics::PanelCovariance<F> of_domain{};
             for (int a = 0; a < 2; ++a) of_domain.add(edge[a][0], edge[a][1]);
             const F area2 = (of_domain.w2 + other.w2) * (of_domain.h2 + other.h2),
@@ -245,6 +252,8 @@ class LensByLens : VisibleLenses {
         const F along_c = select(by_u, edge[0][0], edge[1][0]), along_r = select(by_u, edge[0][1], edge[1][1]);
         F wide = optics::abs(edge[0][0]) / pieces_u + optics::abs(edge[1][0]) / pieces_v,
           high = optics::abs(edge[0][1]) / pieces_u + optics::abs(edge[1][1]) / pieces_v;
+        // The widest of all spreads is the box; the others have the variance sum/12, as two points at +- sqrt(sum/12) =
+        // sqrt(sum)/(2 sqrt 3).
         F aside_x = zero, aside_y = zero;
         if (dimensions > 2) {
             const auto split = [&](F& size, F largest_other, F others2, F& aside) {
@@ -256,6 +265,7 @@ class LensByLens : VisibleLenses {
             split(wide, optics::max(optics::max(others[0].w2, others[1].w2), others[2].w2), other.w2, aside_x);
             split(high, optics::max(optics::max(others[0].h2, others[1].h2), others[2].h2), other.h2, aside_y);
         }
+        // All pieces, each at one, two or four points
         const bool twice_x = any(aside_x > zero), twice_y = any(aside_y > zero);
         const F points = select(aside_x > zero, F(S(2)), one) * select(aside_y > zero, F(S(2)), one);
         const F weight = select(counts, part.end.weight * part.share * per / points, zero);

@@ -13,7 +13,7 @@ namespace {
 using optics::any;
 using optics::select;
 
-/// The coordinates of a sample, as sample_ray() asks for them.
+/// The coordinates of a sample, in the form in which sample_ray() takes them.
 template <class G>
 struct SampleCoordinates {
     G of[optics::sampler_dimensions];
@@ -24,8 +24,9 @@ struct SampleCoordinates {
 /// mm in the array's frame.
 template <class G>
 struct DomainMap {
-    G x, y, x_u, y_u, x_v, y_v, per_area;
+    G x, y, x_u, y_u, x_v, y_v, per_area;  // per_area: 1 over the determinant x_u y_v - x_v y_u
 
+    /// Returns the coordinate u, or v, of the point at (dx, dy) from (x, y): the inverse of the map.
     LFDSIM_FN G u_of(G dx, G dy) const { return (dx * y_v - dy * x_v) * per_area; }
     LFDSIM_FN G v_of(G dx, G dy) const { return (dy * x_u - dx * y_u) * per_area; }
 };
@@ -42,7 +43,8 @@ class LensDomain {
     explicit LensDomain(const Tile& t)
         : tile(t), display(*t.display), view(*t.view), domain(tile.cuts_pixel ? 2 : 0), dimensions(t.dimensions) {}
 
-    /// The points at which rays with these coordinates cross the plane of the holes, in the array's frame.
+    /// Returns the points at which rays with these coordinates cross the plane of the holes, mm from the base lens's axis in the
+    /// array's frame.
     template <class G>
     LFDSIM_FN optics::Vec2<G> at_holes(const optics::PixelRays<G>& pixels, const SampleCoordinates<G>& coordinates) const {
         optics::Ray<G> ray;
@@ -52,7 +54,8 @@ class LensDomain {
         const G per = G(-1) / ray.to.z;
         return {ray.at.x + to.x * per * G(display.holes_below[0]), ray.at.y + to.y * per * G(display.holes_below[1])};
     }
-    /// The map by central differences at +-1/2, half way from the middle of the domain to its ends.
+    /// Returns the map, by central differences at +-1/2, half way from the middle of the domain to its ends. `coordinates` has the
+    /// other coordinates.
     template <class G>
     LFDSIM_FN DomainMap<G> map_of(const optics::PixelRays<G>& pixels, SampleCoordinates<G> coordinates) const {
         const G step = G(S(0.5)), zero = G(S(0));
@@ -67,7 +70,8 @@ class LensDomain {
         return map;
     }
 
-    /// Half the size of the domain's image in the plane of the holes.
+    /// Returns half the size, along x' and y', of the image in the plane of the holes of the square [-width, width]^2 of the
+    /// domain.
     template <class G>
     LFDSIM_FN static optics::Vec2<G> reach_of(const DomainMap<G>& map, G width) {
         return {width * (optics::abs(map.x_u) + optics::abs(map.x_v)), width * (optics::abs(map.y_u) + optics::abs(map.y_v))};
@@ -88,7 +92,8 @@ class LensDomain {
         }
     }
 
-    /// The outline of a lens's cell in the domain's coordinates. A strip has no end.
+    /// Returns the outline of a lens's cell in the domain's coordinates: w = A^-1 (corner - h0) (docs/model.md, "Lens by lens"). A
+    /// strip has no end; its outline reaches over all of the domain.
     template <class G>
     LFDSIM_FN optics::LensOutline<G> outline_of(const DomainMap<G>& map, optics::Cell<S> lens) const {
         const Lattice<S>& lattice = display.lattice;
@@ -118,7 +123,7 @@ class LensDomain {
         return outline;
     }
 
-    /// The ends of rays with these coordinates on the panel.
+    /// Returns the ends of rays with these coordinates on the panel.
     optics::PanelPoint<F> trace(const optics::PixelRays<F>& pixels, const SampleCoordinates<F>& coordinates,
                                 optics::Mask<F> some) const {
         optics::Ray<F> ray;
@@ -126,8 +131,9 @@ class LensDomain {
         return optics::trace_any<F>(display, pixels.extent, pixels.base, ray, some && pixels.alive);
     }
 
-    /// The part of a cell that lies in a round hole: |(x, y)| <= r, an ellipse in the domain. Six points of Gauss's rule along v
-    /// between the part's ends, each with the chord along u.
+    /// Returns the part of a cell of the domain that lies in a round hole: |(x, y)| <= r, an ellipse in the domain. Six points of
+    /// Gauss's rule along v between the part's ends, each with the chord along u. (from_x, from_y): from the hole's axis to (map.x,
+    /// map.y).
     template <class G>
     LFDSIM_FN optics::Moments<G> part_in_hole(const DomainMap<G>& map, G from_x, G from_y, const optics::Box<G>& cell) const {
         const G zero = G(0), one = G(1), half = G(S(0.5)), radius2 = G(display.hole_radius * display.hole_radius);
@@ -142,6 +148,7 @@ class LensDomain {
         G sum = zero, sum_u = zero, sum_v = zero, sum_uu = zero, sum_vv = zero;
         for (int k = 0; k < 6; ++k) {
             const G v = low + span * G(node[k]), x = from_x + map.x_v * v, y = from_y + map.y_v * v;
+            // The chord: |(x, y) + u (x_u, y_u)|^2 = r^2, so u = -b +- sqrt(b^2 - (x^2 + y^2 - r^2)/size2)
             const G b = (x * map.x_u + y * map.y_u) * per,
                     root = optics::sqrt(optics::max(b * b - (x * x + y * y - radius2) * per, zero));
             const G left = optics::max(cell.left, zero - b - root), right = optics::min(cell.right, root - b),
@@ -157,7 +164,7 @@ class LensDomain {
         const auto half_width = [&](G variance) { return optics::sqrt(G(S(3)) * optics::max(variance, zero)); };
         return {sum * span, centre_u + u, centre_v + v, half_width(sum_uu * per_sum - u * u), half_width(sum_vv * per_sum - v * v)};
     }
-    /// Whether the hole contains the cell.
+    /// Returns whether the hole contains a cell of the domain: whether it contains its four corners.
     LFDSIM_FN optics::Mask<F> hole_contains(const DomainMap<F>& map, F from_x, F from_y, const optics::Box<F>& cell) const {
         F most = F(0);
         for (int k = 0; k < 4; ++k) {
@@ -168,7 +175,8 @@ class LensDomain {
         return most <= F(display.hole_radius * display.hole_radius);
     }
 
-    /// The part of a cell that lies in a lens.
+    /// Returns the part of a cell of the domain that lies in a lens, with its share of the domain, whose area is 4. Where the lens
+    /// contains the cell, that is the cell itself. Shares below 1e-7 count as 0.
     LFDSIM_FN LensPart part_of(const DomainMap<F>& map, optics::Cell<S> lens, const optics::LensOutline<F>& outline,
                                const optics::Box<F>& cell, optics::Mask<F> there) const {
         const F zero = F(0), half = F(S(0.5)), du = cell.right - cell.left, dv = cell.high - cell.low;

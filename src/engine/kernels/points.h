@@ -11,15 +11,16 @@ namespace {
 
 constexpr std::uint32_t block_samples = 256;  // samples summed in one go (even), so that rounding does not grow with their number
 
+/// Returns what one sample of each pixel reaches; a separate function for the samples that are not traced in pairs.
 template <optics::Facts facts>
 LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::PixelRays<F>& pixels,
                                            const optics::Sampler<F>& sampler) {
     return optics::trace<facts>(*tile.display, *tile.view, pixels, sampler);
 }
 
-/// The light of one pixel, for a GPU's thread: there other threads hide latency, while code that does not fit into the cache of
-/// instructions, and registers, are dear. So one loop, with none inside it, traces all samples. The sums are those of gather(). It
-/// does not call trace_one(), which would keep the sampler out of the registers.
+/// Returns the sum of a pixel's samples, for a GPU's thread: there other threads hide latency, while registers, and code that does
+/// not fit into the cache of instructions, are costly. So one loop, with none inside it, traces all samples. They are added in the
+/// order of gather(). It does not call trace_one(), which would keep the sampler out of the registers.
 template <optics::Facts facts, bool sobol>
 LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<F>& pixels, std::uint32_t pixel) {
     const optics::TracedDisplay<float>& display = *tile.display;
@@ -47,9 +48,9 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
     return total;
 }
 
-/// Lanes are neighbouring pixels, and each adds its samples in order, two at a time, so that no bit depends on the packet a pixel
-/// is in. The light of two samples is fetched while the next two, traced side by side (simd/pair.h), are on their way, so that
-/// memory latency is hidden.
+/// Returns the sum of the samples of a packet's pixels. Lanes are neighbouring pixels, and each adds its samples in order, two at a
+/// time, so that no bit depends on the packet a pixel is in. The light of two samples is fetched while the next two, traced side by
+/// side (simd/pair.h), are on their way, so that memory latency is hidden.
 template <optics::Facts facts>
 LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
     if constexpr (optics::LaneTraits<F>::width == 1) return gather_one<facts, false>(tile, pixels, pixel);

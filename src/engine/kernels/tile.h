@@ -52,6 +52,7 @@ LFDSIM_APART void keep_rays(const Tile& tile, const optics::PixelRays<F>& pixels
     }
 }
 
+/// Renders a tile by points, packet by packet. A packet's pixels that lie outside the tile are traced, too, but not written.
 template <optics::Facts facts>
 void render_points(const Tile& tile) {
     using Block = optics::Block<F>;
@@ -79,6 +80,7 @@ void render_points(const Tile& tile) {
 
 }  // namespace
 
+/// The kernel of this instruction set (engine/devices/kernel.h).
 void LFDSIM_KERNEL(const Tile& tile) {
     if (tile.strata > 0 && tile.lens_by_lens) return render_lens_by_lens(tile);
     if (tile.strata > 0) return render_filtered(tile);

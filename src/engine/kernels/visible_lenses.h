@@ -12,21 +12,22 @@ namespace {
 /// The derivatives of a ray's end on the panel by each of its sample coordinates, panel pixels.
 struct Derivatives {
     S column[optics::sampler_dimensions], row[optics::sampler_dimensions];
-    bool known;
+    bool known;  // the ray reaches the panel
 };
 
-constexpr int most_divisions = max_strata;
-constexpr int most_visible_lenses = 256;
+constexpr int most_divisions = max_strata;  // of a coordinate
+constexpr int most_visible_lenses = 256;    // to a group
 
 /// A lens that is visible to the pixels of a group.
 struct VisibleLens {
-    S i, j;
+    S i, j;  // its cell, from the group's base lens
     Derivatives by;
 };
 
 /// The lenses visible to a group of pixels, and the number of cells into which each pair of sample coordinates is divided.
 class VisibleLenses : public LensDomain {
   public:
+    /// `padded`: memory for most_visible_lenses.
     VisibleLenses(const Tile& t, VisibleLens* padded) : LensDomain(t), lenses(padded) {}
 
     /// Lists the lenses visible to a group, with the derivatives of their rays; false: there are too many, or the domain has no
@@ -73,6 +74,8 @@ class VisibleLenses : public LensDomain {
         const S columns = S(2) * half.x * display.lattice.per_pitch[0] + S(2),
                 rows = display.lattice.strips ? S(1) : S(2) * half.y * display.lattice.per_pitch[1] + S(2);
         if (!(columns * rows < S(2 * most_visible_lenses))) return false;
+        // The lenses whose part of the widened domain has an area, with derivatives at the middle of that part; the spread of each
+        // pair of coordinates over the panel is the mean over lenses, weighted by their areas.
         const optics::Box<S> widened{-1 - widen_u, 1 + widen_u, -1 - widen_v, 1 + widen_v};
         S weight = 0;
         for_cells(map.x, map.y, half.x, half.y, [&](S i, S j) {
@@ -102,8 +105,11 @@ class VisibleLenses : public LensDomain {
         return count <= most_visible_lenses;
     }
 
-    /// Traces the ray through the middle of a part, and rays to both sides of it in each coordinate, all from the group's middle.
+    /// Returns the derivatives at the middle of a part. Traces the ray through it, and rays to both sides of it in each coordinate,
+    /// all from the group's middle: the derivative is the mean of both differences, or one of them where the other ray is lost or
+    /// ends under another lens, or 0.
     Derivatives derivatives_at(const optics::PixelRays<S>& middle, const optics::Moments<S>& part) const {
+        // Ray 0 is the middle's; rays 2 d + 1 and 2 d + 2 are a step ahead and behind in coordinate d.
         constexpr int rays = 1 + 2 * optics::sampler_dimensions, lanes = optics::LaneTraits<F>::width,
                       padded = (rays + lanes - 1) / lanes * lanes;
         S coordinates[optics::sampler_dimensions][padded] = {}, step[optics::sampler_dimensions];
@@ -149,8 +155,8 @@ class VisibleLenses : public LensDomain {
         return by;
     }
 
-    /// Divides the pairs of coordinates, N cells in all at most: always the pair with the largest spread on the panel per division.
-    /// The widest of the other pairs is read as a box, so it counts less.
+    /// Divides the pairs of coordinates, N = strata^2 cells in all at most: always the pair with the largest spread on the panel
+    /// per division. The widest of the pairs other than the domain is read as a box, so it counts less.
     void divide() {
         const int pairs = dimensions / 2, domain_pair = domain / 2, most = tile.strata * tile.strata;
         for (int& n : divisions) n = 1;
