@@ -19,7 +19,7 @@ void BoxSolver::step(const std::vector<float>& gradient) {
         tbb::parallel_for(std::size_t(0), chunks,
                           [&](std::size_t k) { do_it(k, k * chunk, std::min(x_.size(), (k + 1) * chunk)); });
     };
-    // x' = clamp(y - (M'(My - t) + p (y - c)) / d); (y - x') . d (x' - x) > 0: the last movement leads away from the minimum.
+    // x' = clamp(y - (M'(My - t) + p (y - c)) / d). Where (y - x') . d (x' - x) > 0, the last movement leads away from the minimum.
     std::vector<double> turns(chunks, 0);
     std::vector<float> moved(x_.size());  // x' - x
     for_chunks([&](std::size_t k, std::size_t from, std::size_t to) {
@@ -32,6 +32,7 @@ void BoxSolver::step(const std::vector<float>& gradient) {
             x_[j] = next;
         }
     });
+    // y' = x' + (t_k - 1)/t_(k+1) (x' - x), t_(k+1) = (1 + sqrt(1 + 4 t_k^2))/2; when it turns back, t = 1 and y' = x'.
     double turn = 0;
     for (const double t : turns) turn += t;
     const double next_pace = turn > 0 ? 1 : 0.5 * (1 + std::sqrt(1 + 4 * pace_ * pace_));

@@ -17,14 +17,14 @@ constexpr double usual_pupil_mm = 4;
 
 std::string text_of(const Vec3d& p) { return fmt::format("[{:.5g}, {:.5g}, {:.5g}]", p[0], p[1], p[2]); }
 
-/// The solution above 1 of x^(n + 1) = x + 1: the golden ratio for n = 1.
+/// Returns the solution above 1 of x^(n + 1) = x + 1, by iteration: the golden ratio for n = 1.
 double generalised_golden_ratio(int n) {
     double x = 1.5;
     for (int step = 0; step < 50; ++step) x = std::pow(1 + x, 1. / (n + 1));
     return x;
 }
 
-/// Place k of the recurrence in a box.
+/// Returns place k of the recurrence in a box: along its d sides of some length, the shares frac(1/2 + (k + 1)/phi^i), i = 1 .. d.
 Vec3d place_in(const EyeBox& box, std::int64_t k) {
     int dimensions = 0;
     for (std::size_t c = 0; c < 3; ++c) dimensions += box.high[c] > box.low[c];
@@ -47,7 +47,8 @@ bool is_inside(const EyeBox& box, const Vec3d& p) {
     return true;
 }
 
-/// Half the width and half the height of the array as slopes from the eye's line of sight.
+/// Returns half the width and half the height of the array as slopes from the eye's line of sight: the largest of its corners.
+/// Throws InputError if it is not in front of the eye.
 std::array<double, 2> half_slopes(const Geometry& g, const Vec3d& eye, const CameraAxes& axes) {
     std::array<double, 2> most{};
     const double turn = g.turn_deg * degree, c = std::cos(turn), s = std::sin(turn);
@@ -134,12 +135,14 @@ double element_mm(const Display& display, const Geometry& geometry, const Vec3d&
 
 namespace {
 
+/// Makes the camera that of an eye: with a pupil, over whole pixels, by points.
 void give_pupil(Display& d) {
     d.camera.pixel_filter = PixelFilter::box;
     d.camera.pupil_diameter_mm = d.content.inverse.pupil_mm.value_or(d.camera.pupil_diameter_mm.value_or(usual_pupil_mm));
     d.render.estimator = Estimator::point;
 }
 
+/// Throws InputError if the display is not valid with this camera.
 void refuse_unseen(const Display& d) {
     for (const Problem& problem : validate(d))
         throw InputError(eyes_key, fmt::format("an eye at {} cannot see the display: {} {}", text_of(d.camera.position_mm),
@@ -166,6 +169,7 @@ Display seen_by_eye(const Display& display, const Geometry& geometry, const Vec3
     if (!(eye[2] > front))
         throw InputError(eyes_key, fmt::format("an eye at {} is not in front of the display, which reaches to z = {:.5g} mm",
                                                text_of(eye), front));
+    // The camera, and the size of an element as a slope at the distance in focus
     Display d = display;
     Camera& camera = d.camera;
     camera.position_mm = eye;
@@ -176,6 +180,7 @@ Display seen_by_eye(const Display& display, const Geometry& geometry, const Vec3
     if (!(focus > 0)) throw InputError(eyes_key, fmt::format("an eye at {} is not in front of the content's middle", text_of(eye)));
     const std::array<double, 2> half = half_slopes(geometry, eye, axes);
     const double slope = element_mm(display, geometry, eye, content_z_mm) / focus;  // of an element
+    // A frame of whole elements over the array, with one to spare on each side for the shift
     const double columns = std::ceil(2 * half[0] / slope) + 2, rows = std::ceil(2 * half[1] / slope) + 2;
     if (!(columns * rows < 1e8))
         throw InputError("content.inverse.pixel_mm",

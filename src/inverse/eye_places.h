@@ -15,33 +15,37 @@ struct EyeBox {
     Vec3d low, high;
 };
 
-/// The boxes of content.inverse.eyes_mm, where z = inf stands for the camera's distance; none if the key is absent.
+/// Returns the boxes of content.inverse.eyes_mm, which has two corners for each; infinite coordinates stand for the camera's. None
+/// if the key is absent.
 std::vector<EyeBox> eye_boxes(const Display&);
 
-/// The distance between the centres of neighbouring views for an eye at distance z from the panel: D a/g, D from the rear principal
-/// plane, a the panel's pixel pitch, g the gap. Strips over stripes of subpixels have three views in it.
+/// Returns the distance between the centres of neighbouring views for an eye at distance z from the panel: D a/g, D from the rear
+/// principal plane, a the panel's pixel pitch, g the gap. Of strips over subpixels it is a third of that.
 double view_step_mm(const Display&, const Geometry&, double z_mm);
 
-/// How many views lie side by side in the longest sides of the boxes; 0 of points.
+/// Returns the number of views that lie side by side along the longer sides of the boxes (of strips along x), added up; 0 of
+/// points.
 double views_within(std::span<const EyeBox>, const Display&, const Geometry&);
 
-/// Eye places spread evenly over boxes by an additive recurrence with the powers of a generalised golden ratio (M. Roberts 2018),
-/// the boxes in turn. Places from `first` on, so that held-out places continue the fitted ones.
+/// Returns eye places spread evenly over boxes by an additive recurrence with the powers of a generalised golden ratio (M. Roberts
+/// 2018), the boxes in turn. They are those from number `first` on, so that held-out places continue the fitted ones.
 std::vector<Vec3d> places_within(std::span<const EyeBox>, std::int64_t first, std::int64_t count);
 
 /// Returns eye positions around the boxes, up to `view_steps` view steps from them; fewer than `count` where that rim is very
 /// narrow.
 std::vector<Vec3d> places_around(std::span<const EyeBox>, const Display&, const Geometry&, double view_steps, std::int64_t count);
 
-/// Width of an element of a view, in the plane of the content's middle: content.inverse.pixel_mm or its default.
+/// Returns the width of an element of a view, mm in the plane of the content's middle: content.inverse.pixel_mm, or half of what
+/// the display can show (the lens pitch, or the image of a panel pixel if that is narrower), but an arc minute at least.
 double element_mm(const Display&, const Geometry&, const Vec3d& eye, double content_z_mm);
 
-/// The display with its camera at `eye`: it looks at the panel's centre, is focused on the plane z = content_z_mm, has a pupil and
-/// a box filter, and its frame just covers the array with elements of element_mm(). (shift_x, shift_y): by how many elements, each
-/// 0 to 1, its frame is moved. Throws InputError for a place from which the display cannot be seen.
+/// Returns the display with its camera at `eye`: it looks at the panel's centre, is focused on the plane z = content_z_mm, has a
+/// pupil and a box filter, and its frame just covers the array with elements of element_mm(). (shift_x, shift_y): by how many
+/// elements, each 0 to 1, its frame is moved. Throws InputError for a place from which the display cannot be seen.
 Display seen_by_eye(const Display&, const Geometry&, const Vec3d& eye, double content_z_mm, double shift_x, double shift_y);
 
-/// The display's camera, moved to `eye`, with a pupil, a box filter and this many columns and rows.
+/// Returns the display with its camera moved to `eye`, with a pupil, a box filter and this many columns and rows. Throws InputError
+/// for a place from which the display cannot be seen.
 Display seen_by_camera_at(const Display&, const Geometry&, const Vec3d& eye, std::array<std::int64_t, 2> resolution);
 
 }  // namespace lfdsim

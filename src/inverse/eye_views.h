@@ -13,28 +13,31 @@
 
 namespace lfdsim {
 
-/// The photograph of a scene, which must outlive it.
+/// Returns a function that photographs a scene, which must outlive it.
 ContentOf photographs_of(const ContentScene&, int threads);
 
 /// Rays from eyes through a grid of views, and those that no view shows.
 struct FieldRays {
     std::atomic<std::int64_t> all{0}, unseen{0};
 };
-/// What a camera sees of a grid of views, whose focus is in the plane z = focus_z_mm: along one line through the middle of each
-/// pixel, as wide as it. All must outlive it.
+/// Returns a function that computes what a camera sees of a grid of views, whose focus is in the plane z = focus_z_mm: along one
+/// line through the middle of each pixel, as wide as it. Field and rays, which are counted, must outlive it.
 ContentOf pictures_of(const LightField&, double focus_z_mm, FieldRays&);
 
-/// The views of eyes as a display shows them, of which no element counts yet. Nothing if the job is cancelled.
+/// Returns the views of eyes as a display shows them, of which no element counts yet; nothing if the job is cancelled. `rays`: of
+/// an element's row; `white_points`: by which its light of a white panel, `white`, is computed; `samples`: of a pixel of the
+/// content.
 std::optional<std::vector<View>> views_of(const Request&, const Display&, std::span<const Eye>, std::int64_t rays,
                                           std::int64_t white_points, std::int64_t samples, const SummedPanel& white,
                                           const char* stage);
 
-/// The median light of a white panel over the elements of eyes in the boxes, without those that are dim, or partly between lenses.
-/// Throws InputError if there is none.
+/// Returns G, the median light of a white panel over the elements of eyes in the boxes, without those that are dim, or partly
+/// between lenses. Throws InputError if there is none.
 double gain_of(std::span<const View>);
 
-/// Which elements count, and the share of the gain that each can show: what it sees of a white panel over the most that an element
-/// within a lens pitch of it does. Where this is much less than 1, or the most much less than the gain, it does not count.
+/// Sets View::expected, q of docs/inverse.md: which elements count, and the share of the gain that each can show, what it sees of a
+/// white panel over the most that an element within a lens pitch of it does. Where this is much less than 1, or the most much less
+/// than the gain, the element does not count.
 void expect_light(std::vector<View>&, double gain);
 
 }  // namespace lfdsim

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double integers_of_largest = 1099511627776.;  // 2^40, so that 2^22 of the largest terms fit into a sum
 
-/// Rows of elements in a strip: so few that its rays take some megabytes, a multiple of a packet's.
+/// Returns the number of rows of elements in a strip: a multiple of a packet's height, at which its rays take some megabytes.
 int strip_rows(const ViewRows& rows) {
     const double most = 4e5 / (double(rows.width()) * double(rows.rays()));
     return std::max(4, int(most) / 4 * 4);
@@ -43,7 +43,7 @@ double FittedViews::keep_rows(double bytes) {
     return std::min(double(taken), bytes);
 }
 
-/// do_it(element's number in the view, its row) for each element that counts.
+/// Calls do_it(element's number in the view, its row) for each element that counts.
 template <class Do>
 void FittedViews::for_strip(const Strip& strip, const Do& do_it) const {
     const View& view = views_[strip.view];
@@ -81,7 +81,7 @@ double FittedViews::add_products(const Strip& strip, const PanelVector& x, bool 
             shares[1] = shares[2] = shares[0];
             most[1] = most[2] = most[0];
         }
-        double times[3] = {};  // what a share is multiplied with
+        double times[3] = {};  // by which a ray's share is multiplied in half the gradient
         for (std::size_t c = 0; c < 3; ++c) {
             if (!(shares[c] > 0)) continue;
             const float content = view.content.rgb[p * 3 + c], white = view.white.rgb[p * 3 + c], scale = white / shares[c];
@@ -121,6 +121,7 @@ double FittedViews::products(const PanelVector& x, bool of_target, std::vector<s
 }
 
 PanelVector FittedViews::bound(std::size_t size) {
+    // The largest term that any later sum may contain, then the sums
     const PanelVector ones(size, 1);
     double largest = 0;
     products(ones, false, nullptr, largest);
@@ -180,9 +181,11 @@ Image FittedViews::seen(std::size_t k, const PanelVector& x) const {
 }
 
 Nearness FittedViews::nearness(std::size_t k, const PanelVector& x) const {
-    constexpr double most_between = 0.25;
+    constexpr double most_between = 0.25;  // of the elements that count, those in between that do not
     const View& view = views_[k];
     Image image = seen(k, x);
+    // Elements that do not count get the content's light, so that they differ from it by nothing; the region reaches in each row
+    // from the first to the last element that counts.
     double squares = 0, count = 0, between = 0;
     Region region;
     for (int y = 0; y < image.height; ++y) {

@@ -24,14 +24,16 @@ struct View {
                                        // between lenses or beside the array; 0: it does not count
 };
 
-/// Conversion from the content's light to a view's: black and white of the content in light over a white panel's, and the light
-/// of a white panel.
+/// Conversion from the content's light s to a view's, t = G (B + (W - B) s).
 struct Exposure {
-    double black, white, gain;
+    double black, white, gain;  // B and W, the levels of the content's black and white over a white panel's light; G, that light
     float of(float content) const { return float(gain * (black + (white - black) * double(content))); }
     float content_of(float light) const { return float((double(light) / gain - black) / (white - black)); }
 };
 
+/// Views, and the products of their rows with the panel's light x that a fit needs: the matrix M, the diagonal matrices V of the
+/// views' weights and U of those of their elements (docs/inverse.md, "What is minimised"). Rows are computed at each product, or
+/// kept.
 class FittedViews {
   public:
     /// Products of a cancelled job end soon, unfinished; it must outlive this.
@@ -42,31 +44,37 @@ class FittedViews {
     /// Returns the bytes taken. A cancelled job keeps no more.
     double keep_rows(double bytes);
 
-    /// M'VU(M 1), the bound of the solver; sets the scale of later sums. Columns of pixels that no element sees that counts are 0.
+    /// Returns M'VU(M 1), the bound of the solver, and sets the scale of later sums. It is 0 for what no element sees that counts.
     PanelVector bound(std::size_t size);
-    /// half = M'VU(M x - t), and half the sum of squares. Sums are integers, so the order in which threads add does not matter.
+    /// Computes half = M'VU(M x - t), half the gradient, and returns half the sum of squares. Sums are integers, so that the order
+    /// in which threads add does not matter. bound() comes first.
     double half_gradient(const PanelVector& x, PanelVector& half);
-    /// The light of each number of the panel, at white, in the views from `first` on, each `step`-th before `end`, all elements
-    /// together.
+    /// Returns the light of each number of a white panel in the views from `first` on, each `step`-th before `end`, summed over
+    /// their elements that count.
     std::vector<double> light_in(std::size_t first, std::size_t step, std::size_t end, std::size_t size) const;
-    /// What view k sees of a panel, in the content's light.
+    /// Returns what view k sees of a panel, in the content's light.
     Image seen(std::size_t k, const PanelVector& x) const;
-    /// Over the elements of view k that count. SSIM takes those in between as right; it is NaN where they are more than a quarter.
+    /// Returns how near that comes to the content, over the elements of view k that count. SSIM takes those in between as right; it
+    /// is NaN where they are more than a quarter.
     Nearness nearness(std::size_t k, const PanelVector& x) const;
 
+    /// Returns the number of rays of all elements of all views.
     std::int64_t rays() const;
 
   private:
     struct Strip {  // rows y0 to y1 - 1 of a view
         std::size_t view;
         int y0, y1;
-        std::optional<Rows> kept = {};
+        std::optional<Rows> kept = {};  // else they are made again for each product
     };
     template <class Do>
     void for_strip(const Strip&, const Do&) const;
     template <bool pixels>
     double add_products(const Strip&, const PanelVector& x, bool of_target, std::vector<std::int64_t>* sums, double& largest) const;
+    /// Returns half the sum of squares of M x - t, or of M x unless `of_target`. Adds M'VU of that to `sums`, unless null, and
+    /// raises `largest` to the largest term that may occur. add_products() does so for a strip.
     double products(const PanelVector& x, bool of_target, std::vector<std::int64_t>* sums, double& largest) const;
+    /// Returns u = 1/(s + 0.05), by which errors count about as differences of sRGB codes; 1 for errors of light.
     float weight_of(float content) const { return errors_of_codes_ ? 1 / (std::max(content, 0.f) + 0.05f) : 1; }
 
     std::vector<View> views_;

@@ -23,14 +23,15 @@ namespace lfdsim {
 namespace {
 
 constexpr double usual_prior = 0.001, careful_prior = 0.3;
-constexpr double fewest_rows = 2, fewest_rays = 20;  // below this the fit follows noise
+constexpr double fewest_rows = 2, fewest_rays = 20;  // for each panel pixel met: below this the fit follows noise
 constexpr std::int64_t content_samples = 16, held_out_content_samples = 64, held_out_rays = 512;
-constexpr int patience = 5;             // steps in which held-out eyes must gain ...
-constexpr double least_gain_db = 0.01;  // ... so much
+constexpr int patience = 5;             // steps after which held-out eyes must have gained ...
+constexpr double least_gain_db = 0.01;  // ... this much, or the fit ends
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// Returns a panel picture as the unknowns of a fit, cut to 0 .. 1.
 PanelVector vector_of(const Image& image) {
     PanelVector x(image.rgb.size() / 3 * 4, 0);
     for (std::size_t p = 0; p < image.rgb.size() / 3; ++p)
@@ -45,6 +46,7 @@ Image image_of(const PanelVector& x, const Display& d) {
     return image;
 }
 
+/// Returns the mean over at most `most` views, evenly spaced; NaN if none can be compared.
 Nearness mean_nearness(const FittedViews& views, const PanelVector& x, std::size_t most) {
     double psnr = 0, psnr_eyes = 0, similarity = 0, similarity_eyes = 0;
     const std::size_t step = std::max<std::size_t>((views.views().size() + most - 1) / most, 1);
@@ -56,8 +58,8 @@ Nearness mean_nearness(const FittedViews& views, const PanelVector& x, std::size
     return {psnr / psnr_eyes, similarity / similarity_eyes};  // 0/0 is NaN
 }
 
-/// Leak over signal of two boxes' eyes, whose views take turns, each subpixel showing the picture of those that get most of its
-/// light.
+/// Returns leak over signal of two boxes' eyes, whose views take turns, if each subpixel shows the picture of those that get most
+/// of its light: the mean of both boxes' ratios (InverseReport::crosstalk).
 double crosstalk_of(const FittedViews& views, std::size_t in_boxes, std::size_t size) {
     const std::vector<double> light[2] = {views.light_in(0, 2, in_boxes, size), views.light_in(1, 2, in_boxes, size)};
     double signal[2] = {}, leak[2] = {};
@@ -69,7 +71,8 @@ double crosstalk_of(const FittedViews& views, std::size_t in_boxes, std::size_t 
     return 0.5 * (leak[0] / signal[0] + leak[1] / signal[1]);
 }
 
-/// The picture that a fit begins with.
+/// Returns the picture that a fit begins with: content.inverse.start, or traced content. Throws InputError if its size is not the
+/// panel's.
 PanelVector start_of(const Request& request, const PanelVector& traced) {
     const std::string& file = request.keys().start;
     if (file.empty()) return traced;
@@ -81,14 +84,17 @@ PanelVector start_of(const Request& request, const PanelVector& traced) {
     return vector_of(image);
 }
 
-/// Steps from `start`, those of the best held-out eyes; without them the last.
+/// The result of solve().
 struct Solved {
     PanelVector x;
-    bool stopped = false;
+    bool stopped = false;  // the job was cancelled
 };
 
+/// Takes steps from `start`, and returns the one that is best for held-out eyes, `start` included; without such eyes the last one.
+/// Ends early where held-out eyes no longer gain. Writes the report's figures of held-out eyes, of `centre` as traced content.
 Solved solve(const Request& request, FittedViews& views, const PanelVector& bound, const FittedViews* held_out,
              const PanelVector& start, const PanelVector& centre, InverseReport& report) {
+    // The prior is relative to the mean of the bound, d_mean. A pixel has four numbers, three of which are unknowns.
     double mean = 0, met = 0;
     for (const float b : bound)
         if (b > 0) mean += double(b), ++met;
@@ -128,7 +134,8 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     return best;
 }
 
-/// Bytes of rays that may be kept. Throws InputError if there is no room for the unknowns, or for one view.
+/// Returns the bytes of rays that may be kept: content.inverse.memory_mb, or half of what is free beside the unknowns. Throws
+/// InputError if there is no room for the unknowns, or for one view.
 double memory_for_rays(const Request& request, const Display& seen) {
     const Inverse& keys = request.keys();
     const double unknowns = 10 * texel_bytes(request.display);  // seven arrays of them, and integers of twice the size
@@ -144,7 +151,8 @@ double memory_for_rays(const Request& request, const Display& seen) {
     return bytes;
 }
 
-/// Fits the eyes' views; `traced`: the picture to which the fit is pulled and with which it begins, if there is one.
+/// Fits the eyes' views, and compares the result at held-out eyes. `traced`: the picture to which the fit is pulled and with which
+/// it begins, if there is one; it is the result, not complete, if the job is cancelled before the first step.
 InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<const Eye> held_out_eyes, const EyeCounts& counts,
                   std::int64_t rays, const std::optional<Picture>& traced, InverseReport report) {
     const auto start = Clock::now();
@@ -156,6 +164,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
         none.picture.complete = false;
         return none;
     };
+    // The views: what each eye should see and sees of a white panel, G, and the elements that count
     const double bytes = memory_for_rays(request, display_of(request, request.display, request.geometry, eyes.front(), rays));
     const Texels white = make_texels(pattern("white", request.display, request.geometry));
     const SummedPanel panel(white, request.threads);
@@ -174,6 +183,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     report.gain = exposure.gain;
     report.black = exposure.black;
     report.white = exposure.white;
+    // Their rays, as far as there is memory; a quarter of it for held-out eyes, whose views are compared after each step
     job.stage("rays of the eyes", 1);
     const double left = bytes - held_out.keep_rows(bytes / 4);
     fitted.keep_rows(left);
@@ -182,7 +192,8 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     const PanelVector bound = fitted.bound(size);
     if (job.cancelled()) return stopped();
     if (request.boxes.size() == 2) report.crosstalk = crosstalk_of(fitted, std::size_t(report.places), size);
-    // The content's levels over the panel's light; without content the mean of what the eyes should see of each pixel.
+    // The centre x0 of the prior: traced content at the levels B and W; without it M'VU t / bound, the mean of what the eyes should
+    // see of each pixel.
     PanelVector centre(size, float(exposure.black));
     if (traced) {
         centre = vector_of(traced->image);
@@ -196,6 +207,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     const bool scored = !held_out_eyes.empty() && !std::isnan(mean_nearness(held_out, centre, 1000).psnr_db);
     if (!held_out_eyes.empty() && !scored)
         report.warnings.push_back("held-out eyes see too little of the screen to be compared: the last step's panel is written");
+    // The steps. Where traced content is better for held-out eyes, it is the result.
     Solved solved = solve(request, fitted, bound, scored ? &held_out : nullptr, start_of(request, centre), centre, report);
     if (scored && !(report.held_out.psnr_db > report.held_out_traced.psnr_db)) {
         solved.x = centre;
@@ -214,6 +226,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     return made;
 }
 
+/// Adds a warning if the views have too few elements, or too few rays with light, for each panel pixel that they meet.
 void warn_of_few_rays(InverseReport& report, const Inverse& keys, double rows, double rays) {
     if (rows >= fewest_rows && rays >= fewest_rays) return;
     report.warnings.push_back(
@@ -225,7 +238,7 @@ void warn_of_few_rays(InverseReport& report, const Inverse& keys, double rows, d
                     std::ceil(double(report.places) * std::max(rows_wanted / rows, 1.))));
 }
 
-/// The display that content is made for: without the errors that it does not know of.
+/// The display that content is made for: without errors, unless content is made for the display as built.
 struct Meant {
     bool errors_unknown;
     Display display;
@@ -241,7 +254,7 @@ struct Meant {
     }
 };
 
-/// Places and rays as planned, fitted; `traced` is what a fit is held against.
+/// Plans eyes and rays, fits them, and adds warnings to the report. `traced`: traced content, which the fit is compared with.
 InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Picture& traced) {
     if (!traced.complete) return {traced, {}};
     return on_threads(request.threads, [&] {

@@ -3,7 +3,7 @@
 
 namespace lfdsim {
 
-/// PSNR of sRGB codes, dB, and SSIM of luma.
+/// PSNR of sRGB codes, dB, and SSIM of luma; NaN where they cannot be computed.
 struct Nearness {
     double psnr_db = 0, ssim = 0;
 };

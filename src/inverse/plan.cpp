@@ -16,11 +16,11 @@ namespace lfdsim {
 namespace {
 
 constexpr std::int64_t fewest_places = 24;  // of a box: with 6 or 8 some eyes between them lose 1 to 2.6 dB
-constexpr std::int64_t most_places = 1024;  // chosen by itself: where views have too few elements more eyes take for ever
+constexpr std::int64_t most_places = 1024;  // unless more are asked for: where views have too few elements no number would suffice
 constexpr double rim_weight = 0.25;         // of eyes around the boxes
-constexpr std::int64_t rays_to_count = 4;   // of an element, to see how many pixels are met
+constexpr std::int64_t rays_to_count = 4;   // of an element, to count the pixels that are met
 
-/// A number of a grid's shift, uniform in [0, 1): the same for each seed and place.
+/// Returns the shift of an eye's grid of elements, along both axes uniform in [0, 1): a function of seed and number alone.
 std::pair<double, double> shift_of(const Request& request, std::int64_t place) {
     std::mt19937_64 random(std::uint64_t(request.display.render.seed) * 1000003 + std::uint64_t(place));
     const auto next = [&] { return double(random() >> 11) * 0x1p-53; };
@@ -41,7 +41,7 @@ Display display_of(const Request& request, const Display& display, const Geometr
     Display seen = eye.picture ? seen_by_camera_at(display, geometry, eye.place, {eye.picture->width, eye.picture->height})
                                : seen_by_eye(display, geometry, eye.place, request.content_z_mm, x, y);
     seen.render.samples = rays;
-    // Rays of their own for each eye: what a fit makes of one eye's noise is then noise for the next.
+    // Each eye has different rays: what a fit makes of one eye's noise is then noise for the next.
     seen.render.seed = std::int64_t((std::uint64_t(display.render.seed) + 0x9e3779b97f4a7c15u * std::uint64_t(eye.number)) >> 1);
     return seen;
 }
@@ -88,6 +88,7 @@ std::int64_t white_points_for(const Request& request, const EyeCounts& counts, s
 }
 
 Plan plan(const Request& request) {
+    // As many eyes in the boxes as views lie side by side, or as are given
     const Inverse& keys = request.keys();
     const double rim = keys.rim.value_or(is_strips(request.display.array) ? 0 : 3);
     Plan p{};
@@ -98,6 +99,7 @@ Plan plan(const Request& request) {
                          fmt::format("is {}; give at least two for each box of eyes that is not a point", *keys.places));
     p.in_boxes = keys.places.value_or(
         views > 0 ? std::max(fewest_places * boxes, std::int64_t(std::min(std::ceil(views), double(most_places)))) : boxes);
+    // More of them, until their views have rows_wanted elements for each panel pixel met
     for (int attempt = 0;; ++attempt) {
         const EyeCounts inside = count(request, eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1));
         if (request.job.cancelled()) return p;
@@ -111,6 +113,7 @@ Plan plan(const Request& request) {
         p.in_boxes =
             std::min(std::int64_t(std::ceil(double(p.in_boxes) * std::max(1.05 * rows_wanted / ratio, 1.02))), most_places);
     }
+    // With as many around the boxes, of less weight
     p.eyes = eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1);
     const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, p.in_boxes);
     for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight))) p.eyes.push_back(eye);

@@ -13,56 +13,60 @@
 
 namespace lfdsim {
 
-/// What an eye should see: the picture of a display's camera, `samples` rays a pixel.
+/// Computes what an eye should see: the picture of a display's camera, `samples` rays a pixel, linear light.
 using ContentOf = std::function<Image(const Display& seen, const Geometry&, std::int64_t samples, Job&)>;
 
-/// What was asked for, with what it is of.
+/// What a panel picture is made for and from.
 struct Request {
-    const Display& display;  // that content is made for
-    const Geometry& geometry;
-    const Display& shown;  // as described, which held-out eyes see
-    double content_z_mm;
-    ContentOf content_of;
-    std::vector<EyeBox> boxes;
-    int threads;
+    const Display& display;     // that content is made for
+    const Geometry& geometry;   // of it
+    const Display& shown;       // with its errors, which held-out eyes see
+    double content_z_mm;        // height of the content's middle, on which eyes focus
+    ContentOf content_of;       // not used of eyes with given pictures
+    std::vector<EyeBox> boxes;  // none where pictures are given
+    int threads;                // 0: all
     Job& job;
     const Inverse& keys() const { return display.content.inverse; }
 };
 
 /// An eye, and what a view of it is made of.
 struct Eye {
-    Vec3d place;
-    std::int64_t number;  // decides its grid's shift
-    float weight;
+    Vec3d place;                     // mm, in the display's frame
+    std::int64_t number;             // decides the shift of its grid of elements, and its rays
+    float weight;                    // of its errors
     const Image* picture = nullptr;  // what it should see, where that is given
 };
+/// Returns eyes at these places, with numbers from `first` on.
 std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight);
 
-/// The display with the camera that stands for an eye, and so many rays for each element of its view. Throws InputError.
+/// Returns the display with the camera that stands for an eye, and `rays` for each element of its view. Throws InputError for a
+/// place from which the display cannot be seen.
 Display display_of(const Request&, const Display&, const Geometry&, const Eye&, std::int64_t rays);
 
-/// The numbers of panel pixels that the eyes meet, of elements that see light, and of rays with light.
+/// What eyes meet of a panel.
 struct EyeCounts {
-    double pixels = 0, rows = 0, lit = 0;
+    double pixels = 0, rows = 0, lit = 0;  // panel pixels met; elements with light; rays with light, with one ray an element
 };
+/// Counts these with a few rays for each element. Unfinished where the job is cancelled.
 EyeCounts count(const Request&, std::span<const Eye>);
 
 /// The intended numbers of elements of views and of rays with light for each panel pixel that eyes meet.
 inline constexpr double rows_wanted = 4, rays_wanted = 160;
-/// Returns the rays per element with which each panel pixel met has rays_wanted rays that carry light.
+/// Returns the rays per element, a multiple of 4 up to 4096, with which each panel pixel met has rays_wanted rays that carry light.
 std::int64_t rays_for(const EyeCounts&);
 
 /// Returns the number of points by which an element's light of a white panel is computed: four with light, in each colour, for each
 /// ray of its row, 16 for each at most, so that it is known better than from those rays.
 std::int64_t white_points_for(const Request&, const EyeCounts&, std::int64_t rays);
 
-/// The places and the rays of an element, from the boxes and what their eyes meet.
+/// Which eyes are fitted, and with which rays.
 struct Plan {
-    std::vector<Eye> eyes;
-    std::int64_t in_boxes, rays;
-    EyeCounts counts;  // of all eyes together, with one ray an element
+    std::vector<Eye> eyes;        // in the boxes, then around them
+    std::int64_t in_boxes, rays;  // number of the former; rays of an element
+    EyeCounts counts;             // of all eyes together
 };
-/// Throws InputError for boxes from which no ray ends on the panel.
+/// Plans the eyes and the rays of an element, from the boxes and what their eyes meet. Throws InputError for boxes from which no
+/// ray ends on the panel, and for too few places.
 Plan plan(const Request&);
 
 }  // namespace lfdsim

@@ -39,6 +39,7 @@ void ViewRows::add(const WavelengthRays& light, const PanelRay& ray, std::vector
 }
 
 Rows ViewRows::of(int y0, int y1) const {
+    // All rays; then for each element their entries in the order of places, those of one place added up
     std::vector<std::vector<PanelRay>> rays(lights_.size());
     for (std::size_t k = 0; k < lights_.size(); ++k) lights_[k].rays.trace({0, y0, width_, y1}, rays[k]);
     Rows rows;

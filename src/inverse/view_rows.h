@@ -8,19 +8,22 @@
 
 namespace lfdsim {
 
-/// Rows of a matrix with few entries. An entry is a place in the panel's light and the share of that light: of a panel whose pixels
-/// shine all over in light of any wavelength alike a pixel, of others four times a pixel plus a channel.
+/// Rows of a matrix with few entries. An entry is a place in the panel's light and the share of that light. The place is the number
+/// of a pixel where its three channels have the same share (entries_are_pixels()), else four times that number plus the channel.
 struct Rows {
     std::vector<std::uint32_t> start{0};  // of each row's entries, and behind the last
     std::vector<PanelRay> entries;        // of a row in the order of their places, each place once
     std::span<const PanelRay> row(std::size_t k) const { return std::span(entries).subspan(start[k], start[k + 1] - start[k]); }
+    /// Returns the bytes that the rows take.
     std::size_t bytes() const { return entries.size() * sizeof(PanelRay) + start.size() * sizeof(std::uint32_t); }
 };
 
-/// Whether an entry stands for a pixel, whose three channels have the same share, or for one channel of it.
+/// Returns whether an entry stands for a pixel, whose three channels have the same share, or for one channel of it: subpixels and
+/// dispersion separate the channels.
 bool entries_are_pixels(const Display&);
 
-/// The rows of a display's camera: those of render() by the estimator `point`. May be used by several threads.
+/// The matrix M of a display's camera, whose product with the panel's light is the picture that render() makes by the estimator
+/// `point`. An element is a pixel of that picture. May be used by several threads.
 class ViewRows {
   public:
     /// `seen`: a display whose camera is the eye, with geometry = resolve(seen). Throws InputError.
@@ -28,17 +31,18 @@ class ViewRows {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    /// Rays of an element, of all wavelengths together.
+    /// Returns the rays of an element, of all wavelengths together.
     std::int64_t rays() const;
-    /// The rows of elements in the picture's rows y0 to y1 - 1.
+    /// Returns the rows of the matrix for the elements in the picture's rows y0 to y1 - 1, one after the other.
     Rows of(int y0, int y1) const;
 
   private:
     struct WavelengthRays {  // rays for light of one wavelength
         PanelRays rays;
-        int channel;  // for which they are; -1: all
-        float weight;
+        int channel;   // for which they are; -1: all
+        float weight;  // of this wavelength in the channel
     };
+    /// Appends a ray's entries, one for each channel that it has light of; one in all where entries are pixels.
     void add(const WavelengthRays&, const PanelRay&, std::vector<PanelRay>& row) const;
 
     int width_, height_;
