@@ -36,7 +36,8 @@ std::vector<Vec3d> places_within(std::span<const EyeBox>, std::int64_t first, st
 std::vector<Vec3d> places_around(std::span<const EyeBox>, const Display&, const Geometry&, double view_steps, std::int64_t count);
 
 /// Returns the width of an element of a view, mm in the plane of the content's middle: content.inverse.pixel_mm, or half of what
-/// the display can show (the lens pitch, or the image of a panel pixel if that is narrower), but an arc minute at least.
+/// the display can show (the lens pitch, or the image of a panel pixel if that is narrower), but an arc minute at least, and with
+/// subpixels six panel pixels.
 double element_mm(const Display&, const Geometry&, const Vec3d& eye, double content_z_mm);
 
 /// Returns the display with its camera at `eye`: it looks at the panel's centre, is focused on the plane z = content_z_mm, has a

@@ -16,7 +16,7 @@ namespace lfdsim {
 namespace {
 
 constexpr std::int64_t fewest_places = 24;  // of a box: with 6 or 8 some eyes between them lose 1 to 2.6 dB
-constexpr std::int64_t most_places = 1024;  // unless more are asked for: where views have too few elements no number would suffice
+constexpr std::int64_t most_places = 1024;  // unless a number is given: where views have too few elements, more take very long
 constexpr double rim_weight = 0.25;         // of eyes around the boxes
 constexpr std::int64_t rays_to_count = 4;   // of an element, to count the pixels that are met
 

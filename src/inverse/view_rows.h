@@ -18,8 +18,8 @@ struct Rows {
     std::size_t bytes() const { return entries.size() * sizeof(PanelRay) + start.size() * sizeof(std::uint32_t); }
 };
 
-/// Returns whether an entry stands for a pixel, whose three channels have the same share, or for one channel of it: subpixels and
-/// dispersion separate the channels.
+/// Returns whether an entry stands for a pixel, whose three channels have the same share; with subpixels or dispersion it stands
+/// for one channel.
 bool entries_are_pixels(const Display&);
 
 /// The matrix M of a display's camera, whose product with the panel's light is the picture that render() makes by the estimator
