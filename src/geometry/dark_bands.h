@@ -13,7 +13,7 @@ inline constexpr double visible_band_contrast = 0.1;
 
 /// Returns z, mm from the panel, of the plane that limits light as a viewer sees it: of the pupil, where an aperture inside the
 /// lens limits it; else of the stop before the lens, or of the lens's rim; for a lens that fills its cell, in the middle of the
-/// sides across the array's own x (axis 0) or y (1).
+/// sides across the array's x' (axis 0) or y' (1).
 double aperture_plane_mm(const Display&, const Geometry&, std::size_t axis);
 
 /// Returns the diffuser's full angle (full width at half maximum, if gaussian), degrees, that closes the gaps between lenses from
@@ -25,7 +25,7 @@ double gap_closing_angle_deg(double pitch_mm, double height_mm);
 /// the other. Exact for boxes and arrays that are not rotated.
 std::array<double, 2> joining_spread_mm(const Geometry&);
 
-/// Returns the Michelson contrast, along the array's own x and y, of the light of a white panel across one lens pitch (of the row
+/// Returns the Michelson contrast, along the array's x' and y', of the light of a white panel across one lens pitch (of the row
 /// pitch along y), averaged over 1/32 of it and along the other axis (of staggered rows over one row), as an eye sees it from far
 /// away on the axis. It considers the apertures and the diffuser only (docs/model.md, "Dark bands between lenses"). NaN along
 /// strips.

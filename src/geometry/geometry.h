@@ -13,22 +13,22 @@ namespace lfdsim {
 /// Form of a surface: a glass surface of revolution about the lens's axis, or the plane of an ideal thin lens.
 enum class SurfaceForm { revolution, thin };
 
-/// A surface with its position. z_mm is that of its vertex on the axis, from the panel; the sag s(r) adds to it. A thin lens has
-/// no sag, and air on both sides.
+/// A surface with its position. The height of its points is z_mm plus the sag, sag_mm(). A thin lens has no sag, and air on both
+/// sides.
 struct PlacedSurface {
-    double z_mm;
-    double curvature_per_mm;
-    double conic;
-    std::vector<double> even_asphere;
-    double semi_aperture_mm;
-    double index_below, index_above;  // media on the panel's and on the viewer's side
+    double z_mm;                       // of its vertex on the axis, from the panel
+    double curvature_per_mm;           // c; negative: convex to the viewer
+    double conic;                      // k, the conic constant
+    std::vector<double> even_asphere;  // a4 in 1/mm^3, a6 in 1/mm^5, ...
+    double semi_aperture_mm;           // distance from the axis beyond which it absorbs
+    double index_below, index_above;   // media on the panel's and on the viewer's side
     SurfaceForm form = SurfaceForm::revolution;
-    double focal_length_mm = 0;  // of a thin lens
+    double focal_length_mm = 0;  // f of a thin lens; infinite for a pinhole
 };
 
 /// A plane plate on the panel.
 struct PlacedLayer {
-    double thickness_mm, index;
+    double thickness_mm, index;  // refractive index
 };
 
 /// A lens's pupil as an eye far away on its axis sees it, by paraxial optics: of the images of all apertures through the
@@ -43,7 +43,7 @@ struct Pupil {
 /// A valid display resolved to lengths on the z axis, with the errors of its array as a whole but for wedge and bow. All z in
 /// mm from the panel.
 struct Geometry {
-    Lattice<double> lattice;              // where the lenses stand
+    Lattice<double> lattice;              // where the lenses are
     double turn_deg;                      // of the array's frame against the display's, counter-clockwise to the viewer
     std::vector<PlacedSurface> surfaces;  // panel side first; at least one
     std::vector<PlacedLayer> layers;      // on the panel, from it upwards
@@ -61,10 +61,10 @@ struct Geometry {
     double glass_radius_mm;  // plano_convex: r of the cap in glass (a lens that fills its cell: at least to the corners); else semi
                              // aperture
     Pupil pupil;             // of a lens
-    std::array<double, 2> clear_aperture_mm;  // D, the pupil's width along the array's own x and y
+    std::array<double, 2> clear_aperture_mm;  // D, the pupil's width along the array's x' and y'
     double stop_z_mm;                         // plane of the curved vertex (last vertex for surfaces, lens for ideal)
     std::optional<double> diffuser_z_mm;
-    double panel_width_mm, panel_height_mm;
+    double panel_width_mm, panel_height_mm;   // W and H
     double array_width_mm, array_height_mm;   // of the box about all cells, in the array's frame
     double frame_width_mm;                    // of the camera, resolved from frame_width_mm | fov_deg | default
     double focus_distance_mm;                 // of the camera
@@ -72,25 +72,25 @@ struct Geometry {
     std::optional<double> content_height_mm;  // absent: as high as the objects make it
 };
 
-/// Paraxial figures along one of the array's own axes, p its pitch there. Equations: docs/model.md, "Theory".
+/// Paraxial figures along one of the array's axes, x' or y', with p the pitch there (docs/model.md, "Theory").
 struct AxisTheory {
-    double fov_deg;                     // 2 atan(p / 2g)
-    double fov_exact_deg;               // of the ray from p'/2 to the axis at the principal point, by Snell; NaN for glass lenses
-    double fov_elemental_deg;           // 2 atan(p' / 2g), p' the elemental images' pitch: what is seen through their whole width
-    double views;                       // N = p / a, of strips along a row of the panel p / (a cos(slant))
-    double view_step_deg;               // FOV / N
-    double viewing_zone_parallel_deg;   // whole screen, elemental-image pitch p
-    double viewing_zone_deg;            // whole screen, elemental images for the description's viewing distance, seen by the eye
-    double eyebox_mm;                   // width of the region from which an eye sees the middle lens's own image: E p' / g
-    double elemental_pitch_mm;          // p' = p (1 + g / (D - z_r))
+    double fov_deg;                    // 2 atan(p / 2g)
+    double fov_exact_deg;              // of the ray from p'/2 to the axis at the principal point, by Snell; NaN for glass lenses
+    double fov_elemental_deg;          // 2 atan(p' / 2g), p' the elemental images' pitch: what is seen through their whole width
+    double views;                      // N = p / a, of strips along a row of the panel p / (a cos(slant))
+    double view_step_deg;              // FOV / N
+    double viewing_zone_parallel_deg;  // whole screen, with elemental images of the pitch p
+    double viewing_zone_deg;           // whole screen, with elemental images for the viewing distance, at the eye's distance
+    double eyebox_mm;           // width of the region from which an eye sees the image that belongs to the middle lens: E p'/g
+    double elemental_pitch_mm;  // p' = p (1 + g / (D' - z_H')), D' the viewing distance
     double lens_sampling_limit_per_mm;  // 1 / 2p
     double gap_closing_diffuser_deg;    // 2 atan(p / 2L), as published: of a diffuser at L
-    double gap_closing_here_deg;        // 2 atan(p / 2d), d the diffuser's own height above the apertures (bands.h)
+    double gap_closing_here_deg;        // 2 atan(p / 2d), d the diffuser's actual height above the apertures (dark_bands.h)
 };
 
 /// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value, NaN where it is undefined.
 struct Theory {
-    std::array<AxisTheory, 2> along;  // the array's own x and y; of strips, which do nothing along y, that is NaN
+    std::array<AxisTheory, 2> along;  // along x' and y'; of strips, which do nothing along y', that is NaN
     double fov_horizontal_deg;        // of strips along the panel's rows, 2 atan(p / (2 g cos(slant))); NaN for others
     // For pinholes, which have no image plane, all of these but the gap are NaN.
     double focal_length_mm;
@@ -114,6 +114,7 @@ Geometry resolve(const Display&);
 /// principal points, gap and reduced lengths are those of that light. Throws InputError as the other resolve().
 Geometry resolve(const Display&, double wavelength_nm);
 
+/// Returns the paraxial theory of a display, for content made for the display as built.
 Theory theory(const Display&, const Geometry&);
 
 /// Returns the eye's distance from the panel that theory and measures assume, mm: that of the camera from the panel's centre.

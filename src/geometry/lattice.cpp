@@ -11,21 +11,22 @@ namespace {
 
 constexpr double endless_mm = 1e9;  // beyond every panel; its square is a float
 
-/// Half the panel's bounding box in the array's frame, about the panel's middle, mm.
+/// Returns half the width and height of the panel's bounding box in the array's frame, mm.
 std::array<double, 2> half_panel_mm(const Panel& panel, const LensArray& array) {
     const double w = double(panel.pixels[0]) * panel.pixel_pitch_mm / 2, h = double(panel.pixels[1]) * panel.pixel_pitch_mm / 2,
                  c = std::abs(std::cos(array.turn_deg() * degree)), s = std::abs(std::sin(array.turn_deg() * degree));
     return {w * c + h * s, w * s + h * c};
 }
 
-/// The least that cover the panel, whose middle is -offset from the array's.
+/// Returns the least number of lenses that cover the panel, whose middle is -offset from the array's (docs/model.md, "Lens array
+/// and surround", "Extent").
 std::array<std::int64_t, 2> covering_count(const Panel& panel, const LensArray& array) {
     const double c = std::cos(array.turn_deg() * degree), s = std::sin(array.turn_deg() * degree);
     const auto [x, y] = array.offset_mm;
     const auto half = half_panel_mm(panel, array);
     const double half_x = half[0] + std::abs(c * x + s * y), half_y = half[1] + std::abs(c * y - s * x);
     const auto [px, py] = spacing_mm(panel, array);
-    // A panel that ends within a billionth of a cell's border is covered. What is no number gives 1.
+    // A panel that ends within a billionth of a cell beyond a border is covered. NaN gives 1.
     const auto whole = [](double cells) { return cells > 1 ? std::int64_t(std::min(std::ceil(cells - 1e-9), 1e10)) : 1; };
     const std::int64_t columns = whole(2 * half_x / px + (is_staggered(array) ? 0.5 : 0));
     if (is_strips(array)) return {columns, 1};

@@ -1,4 +1,4 @@
-// Where the lenses of an array stand. Floor 0, public as a part of geometry.h: plain data; the functions on it are in
+// Where the lenses of an array are. Floor 0, public as a part of geometry.h: plain data; the functions on it are in
 // optics/lattice.h, compiled once for each instruction set.
 #pragma once
 #include <array>
@@ -9,13 +9,14 @@ namespace lfdsim {
 struct LensArray;
 struct Panel;
 
-/// Lengths in mm. The array's frame has x' along its rows and y' along its columns. Lens (i, j), counted from 0 to the right and
-/// upwards, has its axis at ((i + 1/2 - nx/2) px, (j + 1/2 - ny/2) py) from the array's middle; staggered rows stand px/4 to the
-/// right of that where j is odd and px/4 to the left where it is even. A cell is the rectangle about the axis, or, where lenses are
-/// nearest to each other at 60 degrees, the hexagon with corners up and down. Strips are cells without end along y'.
+/// The lattice of an array's lens axes; lengths in mm (docs/model.md, "Lens array and surround"). The array's frame has x' along
+/// its rows and y' along its columns. Lens (i, j), counted from 0 to the right and upwards, has its axis at ((i + 1/2 - nx/2) px,
+/// (j + 1/2 - ny/2) py) from the array's middle; staggered rows are shifted by px/4 to the right of that where j is odd and by px/4
+/// to the left where it is even. A cell is the rectangle about the axis, or, where lenses are nearest to each other at 60 degrees,
+/// the hexagon with corners up and down. Strips are cells without end along y'.
 template <class S>
 struct Lattice {
-    S pitch[2], per_pitch[2], half_pitch[2];  // along x', and from row to row; the second its inverse
+    S pitch[2], per_pitch[2], half_pitch[2];  // along x', and from row to row; 1/pitch; pitch/2
     S count[2];                               // lenses along x' and y'
     S offset[2];                              // of the array's middle in the display's frame
     S cos_turn, sin_turn;                     // of the array's frame against the display's, counter-clockwise to the viewer
@@ -28,10 +29,10 @@ bool is_staggered(const LensArray&);
 /// Returns whether the array consists of cylindrical lenses side by side.
 bool is_strips(const LensArray&);
 
-/// Axes of the array's frame along which the lenses image: strips do so along x' alone.
+/// Returns the number of axes of the array's frame along which the lenses image: strips do so along x' alone.
 inline int imaging_axes(const LensArray& array) { return is_strips(array) ? 1 : 2; }
 
-/// Returns whether figures that depend on the pitch differ between the array's own x and y, and are reported for each.
+/// Returns whether figures that depend on the pitch differ between the array's x' and y', and are reported for each.
 bool differs_by_axis(const LensArray&);
 
 /// Returns the distance between neighbouring lenses along x' and between rows along y', mm; strips form one row, whose "pitch"
@@ -50,6 +51,8 @@ double inner_radius_mm(const LensArray&);
 /// Returns the radius of the smallest disk around a cell, mm; of strips p/2.
 double outer_radius_mm(const LensArray&);
 
+/// Returns the lattice of a description, without errors. That of strips has one row, half_pitch[1] beyond every panel, and
+/// per_pitch[1] 0, so that any finite point lies in row 0.
 Lattice<double> make_lattice(const Panel&, const LensArray&);
 
 }  // namespace lfdsim

@@ -7,9 +7,9 @@
 namespace lfdsim {
 namespace {
 
-constexpr double most_sd = 3;  // a manufacturer sorts out what is further off
+constexpr double most_sd = 3;  // standard deviations; a manufacturer rejects lenses that are further off
 
-/// 64 bits that look random, of each number another; a step of SplitMix64 (Steele, Lea and Flood 2014).
+/// Returns 64 bits that look random, different ones for each number; a step of SplitMix64 (Steele, Lea and Flood 2014).
 std::uint64_t mixed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15u;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -17,10 +17,11 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// 0 <= x < 1.
+/// Returns the upper 53 bits as a number x, 0 <= x < 1.
 double unit(std::uint64_t bits) { return double(bits >> 11) * 0x1p-53; }
 
-/// exp(-y) for 0 <= y <= 4.5 to 1e-15, of sums and products alone: every machine rounds these alike.
+/// Returns exp(-y) for 0 <= y <= 4.5 to 1e-15, as (exp(-y/64))^64 by Taylor's series: of sums and products alone, which every
+/// machine rounds alike.
 double falling_exponential(double y) {
     const double x = -y / 64;
     double sum = 1;
@@ -29,7 +30,7 @@ double falling_exponential(double y) {
     return sum;
 }
 
-/// A number of the standard normal distribution within `most_sd`, by rejection: of numbers spread evenly there the share
+/// Returns a number of the standard normal distribution within `most_sd`, by rejection: of numbers spread evenly there the share
 /// exp(-x^2/2) is taken.
 double normal(std::uint64_t key) {
     for (std::uint64_t attempt = 0;; ++attempt) {
@@ -41,6 +42,7 @@ double normal(std::uint64_t key) {
 
 enum class Quantity : std::uint64_t { aside_x, aside_y, height, tilt_x, tilt_y, curvature };
 
+/// The random numbers of lens (i, j): functions of seed, i, j and quantity alone.
 class Draw {
   public:
     Draw(const Errors& e, std::int64_t i, std::int64_t j)
@@ -53,6 +55,7 @@ class Draw {
     std::uint64_t lens_;
 };
 
+/// Returns the random errors of lens (i, j). Strips move across themselves and tilt about their axes only.
 LensError drawn(const LensArray& array, const Errors& e, std::int64_t i, std::int64_t j) {
     const Draw draw(e, i, j);
     const bool strips = is_strips(array);
@@ -62,6 +65,7 @@ LensError drawn(const LensArray& array, const Errors& e, std::int64_t i, std::in
             draw(Quantity::curvature, e.curvature_sd)};
 }
 
+/// Returns whether lenses have individual errors, drawn or given.
 bool of_each_lens(const Errors& e) {
     return e.decenter_sd_mm != 0 || e.height_sd_mm != 0 || e.tilt_sd_deg != 0 || e.curvature_sd != 0 || e.given;
 }

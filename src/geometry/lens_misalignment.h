@@ -1,4 +1,4 @@
-// The errors of an array: what they come to, and how those of its lenses are drawn. docs/model.md, "Errors". Floor 0.
+// The errors of an array: which kinds it has, and how those of its lenses are drawn. docs/model.md, "Errors". Floor 0.
 #pragma once
 #include "display/display.h"
 #include "geometry/lattice.h"
@@ -26,11 +26,12 @@ inline double pitch_scale(const Errors& e) { return 1 + e.pitch_ppm * 1e-6; }
 
 /// The range of the errors of single lenses: three standard deviations plus the extremes of the table.
 struct LensErrorBounds {
-    std::array<double, 2> aside_mm{};  // either way
+    std::array<double, 2> aside_mm{};  // along x' and y', in both directions
     double height_mm[2] = {0, 0};      // lowest and highest
-    std::array<double, 2> tilt_deg{};  // either way
-    double curvature[2] = {0, 0};      // least and most
+    std::array<double, 2> tilt_deg{};  // about x' and y', in both directions
+    double curvature[2] = {0, 0};      // least and greatest e
 };
+/// Returns the range of the errors of an array's lenses, drawn and given, without the bow.
 LensErrorBounds bounds(const LensArray&, const Errors&);
 
 /// Returns the errors of each lens, row by row from the lower left: the random errors plus those of the table. A pure function of

@@ -12,8 +12,8 @@ namespace {
 
 double sag(const PlacedSurface& s, double distance) { return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, distance); }
 
-// Least value of f over [0, end]: a scan finds the valley, golden section its floor. An asphere of 8 terms has at most 9 valleys,
-// far wider than a step unless its coefficients cancel one another beyond any real lens. NaN anywhere gives NaN.
+/// Returns the least value of f over [0, end]: a scan finds the valley, golden section its floor. An asphere of 8 terms has at most
+/// 9 valleys, far wider than a step unless its coefficients cancel one another beyond any real lens. NaN anywhere gives NaN.
 template <class Function>
 double lowest(Function f, double end) {
     constexpr int steps = 256;
@@ -69,8 +69,10 @@ Cardinal cardinal_points(const std::vector<PlacedSurface>& surfaces) {
         c -= power * a, d -= power * b;
         z = s.z_mm;
     }
+    // With (y', n u') = (a, b; c, d) (y, n u) and air on both sides: f = -1/c, H is (d - 1)/c from the first vertex and H' is
+    // (1 - a)/c from the last one. An afocal lens shifts a parallel pencil: a ray to z leaves as if from z + (length - b), b the
+    // reduced thickness.
     const double front = surfaces.front().z_mm;
-    // A parallel pencil shifted by the glass: a ray to z leaves as if from z + (length - b), b the reduced thickness.
     if (c == 0) return {std::numeric_limits<double>::infinity(), front, z - b};
     return {-1 / c, front + (d - 1) / c, z + (1 - a) / c};
 }
@@ -85,7 +87,8 @@ namespace {
 std::vector<PlacedSurface> placed(const PlanoConvex& lens, const LensArray& array, double wavelength_nm) {
     const double R = lens.sphere_radius_mm, r = glass_radius_mm(lens.aperture_radius_mm, array);
     const double n = index_at(lens.index, lens.glass, wavelength_nm);
-    // The ball's centre lies sqrt(R^2 - r^2) below the wall's end, its apex R above the centre; (R - r)(R + r) avoids cancellation.
+    // T = h + R - sqrt(R^2 - r^2): the sphere's centre lies sqrt(R^2 - r^2) below the wall's end, its apex R above the centre. The
+    // form (R - r)(R + r) avoids cancellation.
     const double thickness = lens.cylinder_height_mm + R - std::sqrt((R - r) * (R + r));
     if (lens.facing == Facing::viewer) return {{0, 0, 0, {}, r, 1, n}, {thickness, -1 / R, 0, {}, r, n, 1}};
     return {{0, 1 / R, 0, {}, r, 1, n}, {thickness, 0, 0, {}, r, n, 1}};

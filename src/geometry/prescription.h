@@ -12,8 +12,9 @@ namespace lfdsim {
 /// vertex.
 struct Cardinal {
     double focal_length_mm;
-    double front_principal_mm, rear_principal_mm;  // z, in the frame of the surfaces
+    double front_principal_mm, rear_principal_mm;  // z of H and H', in the frame of the surfaces
 };
+/// Returns the cardinal points of surfaces, panel side first.
 Cardinal cardinal_points(const std::vector<PlacedSurface>&);
 
 /// Returns the radius r of a plano-convex or ideal lens, mm: as given; of lenses that fill their cells at least the distance to

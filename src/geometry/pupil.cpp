@@ -29,7 +29,8 @@ Pupil pupil(const std::vector<PlacedSurface>& surfaces, std::optional<double> st
         const auto narrow = [&](double radius) {
             if (!(radius < found.radius_mm * height)) return;
             found.radius_mm = radius / height;
-            // The ray through the aperture's middle: it is where it would cross the axis that the middle is seen.
+            // A combination of both rays passes the aperture's middle. The middle is seen where that ray, extended from the first
+            // vertex, crosses the axis.
             found.inner_z.reset();
             if (!first) found.inner_z = first_z - oblique.height / parallel.height;
         };
@@ -42,9 +43,10 @@ Pupil pupil(const std::vector<PlacedSurface>& surfaces, std::optional<double> st
 }
 
 std::array<double, 2> light_width_mm(const Display& d, const Geometry& g) {
-    // A ray that leaves the panel's point with a slope of 1 in air is g from the axis in both principal planes.
-    double height = 0, slope = 1, z = 0, index = 1;  // slope times index
-    const auto climb = [&](double to_z, double in) {
+    // A ray that leaves the panel's point with a reduced slope of 1 is g from the axis in both principal planes and at the height h
+    // in an aperture: D_L = 2 g min r/|h|.
+    double height = 0, slope = 1, z = 0, index = 1;   // slope times index
+    const auto climb = [&](double to_z, double in) {  // to the height to_z, in a medium of the index `in`
         height += slope * (to_z - z) / in;
         z = to_z;
     };

@@ -12,9 +12,9 @@
 namespace lfdsim {
 namespace {
 
-constexpr double glue_mm = 1e-6;  // a flat face so near to what lies under it borders on it
+constexpr double glue_mm = 1e-6;  // a flat face this near to the layers, or to the panel, borders on them
 
-/// Sum of thickness / index.
+/// Returns the reduced thickness of layers: the sum of thickness / index.
 double reduced_mm(const std::vector<PlacedLayer>& layers) {
     double sum = 0;
     for (const PlacedLayer& layer : layers) sum += layer.thickness_mm / layer.index;
@@ -33,7 +33,8 @@ std::vector<PlacedLayer> placed_layers(const Panel& panel, double wavelength_nm)
     return layers;
 }
 
-/// From the panel along a lens's axis to the vertex that an eye's rays meet first: sum of thickness / index.
+/// Returns the reduced distance from the panel along a lens's axis to the vertex that an eye's rays meet first: the sum of
+/// thickness / index over layers, air and glass.
 double reduced_entrance_mm(const Geometry& g) {
     double sum = reduced_mm(g.layers), z = g.layers_top_mm, index = 1;
     for (const PlacedSurface& s : g.surfaces) {
@@ -44,13 +45,14 @@ double reduced_entrance_mm(const Geometry& g) {
     return sum;
 }
 
-/// The lens's lowest face borders on the top layer, or on the panel itself.
+/// Makes the lens's lowest face border on the top layer, or on the panel itself: in place of air its lower medium is that layer,
+/// or, on the panel, the glass itself, so that it does not refract.
 void glue(Geometry& g) {
     PlacedSurface& face = g.surfaces.front();
     face.index_below = g.layers.empty() ? face.index_above : g.layers.back().index;
 }
 
-/// D of lenses whose pitch is `scale` times that of the description: cells grow with it, holes do not.
+/// Sets D for lenses whose pitch is `scale` times that of the description: cells grow with it, holes do not.
 void clear_apertures(const LensArray& array, double scale, Geometry& g) {
     g.clear_aperture_mm.fill(2 * g.pupil.radius_mm);
     if (array.aperture != Aperture::cell) return;
@@ -58,7 +60,7 @@ void clear_apertures(const LensArray& array, double scale, Geometry& g) {
         g.clear_aperture_mm[k] = std::min(g.clear_aperture_mm[k], g.pupil.cells * array.pitch_mm[k] * scale);
 }
 
-// Places the lens along z: its surfaces and planes, from gap or base.
+/// Places the lens along z, in green light: its surfaces and planes, from array.gap_mm or array.base_z_mm.
 void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Geometry& g) {
     const double green_nm = panel.wavelengths_nm[green_channel];
     g.layers = placed_layers(panel, green_nm);
@@ -66,6 +68,7 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     const double T = g.layers_top_mm, reduced_T = reduced_mm(g.layers);
     g.surfaces = prescription(lens, array, green_nm);
     const Cardinal paraxial = cardinal_points(g.surfaces);
+    // Extents of the lens, from its first vertex
     double lowest = 0, highest = 0, vertex = 0, widest = 0;
     for (const PlacedSurface& s : g.surfaces) {
         const auto [low, high] = sag_range_mm(s);
@@ -74,7 +77,7 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
         vertex = std::max(vertex, s.z_mm);
         widest = std::max(widest, s.semi_aperture_mm);
     }
-    // z of the first vertex
+    // z of the first vertex. A gap is reduced: the layers count as T/n, so the air between them and H is g less that.
     const double first =
         array.base_z_mm ? *array.base_z_mm - lowest : T + (array.gap_mm.value_or(0) - reduced_T) - paraxial.front_principal_mm;
     for (PlacedSurface& s : g.surfaces) s.z_mm += first;
@@ -100,7 +103,8 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     clear_apertures(array, 1, g);
 }
 
-// The array as a whole stands elsewhere. The diffuser, the content and the camera stay.
+/// Moves the array as a whole by its errors (docs/model.md, "Errors"). The diffuser, the content and the camera stay, so that
+/// depths from the vertex plane change.
 void misplace_array(const Errors& e, const LensArray& array, Geometry& g) {
     if (e.gap_mm != 0) {
         for (PlacedSurface& s : g.surfaces) s.z_mm += e.gap_mm;
@@ -159,13 +163,13 @@ Geometry resolve_unchecked(const Display& d) {
     if (d.camera.fov_deg) g.frame_width_mm = 2 * target_mm * std::tan(*d.camera.fov_deg * degree / 2);
     g.focus_distance_mm = d.camera.focus_distance_mm.value_or(target_mm);
 
-    // By default content stands on the central depth plane, in front of the lenses or (virtual) behind them. If the lenses nearly
-    // collimate, that plane is too far away for any scene, and content stands at the lenses.
+    // By default content is on the central depth plane, in front of the lenses or (virtual) behind them. If the lenses nearly
+    // collimate, that plane is too far away for any scene, and content is at the lenses.
     const double central = g.rear_principal_mm + theory(d, g).central_depth_mm - g.vertex_plane_mm;
     const double viewer = std::min(d.content.viewing_distance_mm, d.camera.position_mm[2]) - g.vertex_plane_mm;
     g.content_depth_mm = d.content.depth_mm.value_or(std::abs(central) <= viewer / 2 ? central : 0);
     g.content_height_mm = d.content.height_mm.value_or(g.panel_height_mm / 2);
-    if (!d.content.objects.empty()) {  // these stand where they say, and are as large
+    if (!d.content.objects.empty()) {  // these have positions and sizes of the description
         g.content_depth_mm = d.content.depth_mm.value_or(middle_z_mm(d.content.objects));
         g.content_height_mm = d.content.height_mm;
     }
@@ -180,6 +184,7 @@ Geometry resolve(const Display& d) {
 
 Geometry resolve(const Display& d, double wavelength_nm) {
     Geometry g = resolve(d);
+    // Positions stay; what depends on an index is computed anew.
     const double reduced_T = reduced_mm(g.layers), front = g.front_principal_mm, first = g.surfaces.front().z_mm;
     const std::vector<PlacedSurface> lens = prescription(d.lens, d.array, wavelength_nm);
     for (std::size_t k = 0; k < lens.size(); ++k) {
@@ -193,7 +198,7 @@ Geometry resolve(const Display& d, double wavelength_nm) {
     g.front_principal_mm = first + paraxial.front_principal_mm;
     g.rear_principal_mm = first + paraxial.rear_principal_mm;
     g.focal_length_mm = paraxial.focal_length_mm;
-    // by what has changed: to the last bit the same where nothing has
+    // The gap changes by the differences, so that it is the same to the last bit where no index does.
     g.gap_mm += (reduced_mm(g.layers) - reduced_T) + (g.front_principal_mm - front);
     return g;
 }

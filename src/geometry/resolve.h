@@ -1,4 +1,4 @@
-// What only the library itself asks of a resolved display, beside geometry.h. Floor 0.
+// Functions of a resolved display that the library alone uses, in addition to geometry.h. Floor 0.
 #pragma once
 #include "geometry/geometry.h"
 
@@ -6,17 +6,18 @@
 
 namespace lfdsim {
 
-/// The geometry for which elemental images are made: that of the display without its errors, but for content.made_for =
+/// Returns the geometry for which elemental images are made: that of the display without its errors, unless content.made_for is
 /// "built".
 Geometry meant_geometry(const Display&, const Geometry& built);
 
-/// Midway between the nearest and the furthest object's middle, from the viewer-side vertex plane as they; of one or more.
+/// Returns the depth midway between those of the nearest and the furthest object, mm from the viewer-side vertex plane. There must
+/// be an object.
 double middle_z_mm(const std::vector<SceneObject>&);
 
-/// Whether a stop lies in the entrance plane: light then passes it before it meets the lens.
+/// Returns whether there is a stop in the entrance plane: rays from the viewer's side then pass it before they meet the lens.
 bool stop_at_entrance(const Display&, const Geometry&);
 
-/// D along a lens's wider axis.
+/// Returns the clear aperture D, mm, along that axis of the array along which it is wider.
 double widest_aperture_mm(const Geometry&);
 
 }  // namespace lfdsim

@@ -27,11 +27,11 @@ class PanelBehind {
     double half_width_, half_height_, vertex_plane_;
 };
 
-/// Returns the size of the box about the part of the array in front of the panel, seen from far away on the axis: along the
-/// array's own x and y, mm; 0 if there is none.
+/// Returns the size of the box about the part of the array that is in front of the panel as a distant viewer on the axis sees it:
+/// along the array's x' and y', mm; 0 if there is none.
 std::array<double, 2> screen_size_mm(const Geometry&);
 
-/// Returns how many lenses lie side by side in front of the panel along an axis of the array.
+/// Returns how many lenses lie side by side in front of the panel along an axis of the array, x' (0) or y' (1); at least 1.
 double lenses_across(const Geometry&, std::size_t axis);
 
 }  // namespace lfdsim

@@ -15,7 +15,8 @@ namespace {
 constexpr DepthSpan no_depths{nan, nan};
 constexpr double rounding_mm = 1e-6;  // of an end at the lenses
 
-/// z from `low` to `high`, all on one side of the principal plane, cut at the lenses and at the viewer.
+/// Returns the depths from `low` to `high`, mm from the rear principal plane, as depths from the vertex plane: those in front of
+/// the lenses up to the viewer, or those behind them.
 DepthSpan cut(const Geometry& g, double low, double high, bool in_front, double eye_mm) {
     const double from_vertex = g.rear_principal_mm - g.vertex_plane_mm, viewer = eye_mm - g.vertex_plane_mm;
     const DepthSpan span{in_front ? std::max(low + from_vertex, 0.) : low + from_vertex,
@@ -28,6 +29,7 @@ DepthSpan cut(const Geometry& g, double low, double high, bool in_front, double 
 SharpRange range_of_inverse(const Geometry& g, double near, double far, double eye_mm) {
     SharpRange range{no_depths, no_depths};
     if (!(far <= near)) return range;
+    // 1/z falls with z, so on each side the nearer end of the depths is the one of the larger |1/z|.
     if (near > 0) range.in_front = cut(g, 1 / near, far > 0 ? 1 / far : infinity, true, eye_mm);
     if (far < 0) range.behind = cut(g, near < 0 ? 1 / near : -infinity, 1 / far, false, eye_mm);
     return range;

@@ -7,7 +7,7 @@
 namespace lfdsim {
 
 /// A range of depths from `low` to `high`, mm from the viewer-side vertex plane, positive in front of it; `low` may be minus
-/// infinity. NaN: empty.
+/// infinity. Both are NaN if it is empty.
 struct DepthSpan {
     double low, high;
     bool empty() const { return !(low <= high); }
@@ -20,9 +20,9 @@ struct SharpRange {
     bool holds(double depth) const { return behind.holds(depth) || in_front.holds(depth); }
 };
 
-/// Returns the range of all z with far <= 1/z <= near, z from the rear principal plane towards the viewer, 1/mm. Where the signs
-/// of the two ends differ, the depths go through infinity: they begin at some distance on either side, and the lenses themselves
-/// are not among them.
+/// Returns the range of all z with far <= 1/z <= near, z from the rear principal plane towards the viewer; near and far in 1/mm,
+/// `eye_mm` from the panel. Where the signs of the two ends differ, the depths go through infinity: they begin at some distance on
+/// either side, and the lenses themselves are not among them.
 SharpRange range_of_inverse(const Geometry&, double near_per_mm, double far_per_mm, double eye_mm);
 
 /// Returns the range of all z from low to high, mm from the rear principal plane.

@@ -11,6 +11,7 @@ namespace {
 constexpr double same = 1e-9;  // pixels: places closer than this are one
 constexpr double third = 1.0 / 3;
 
+/// A rectangle, in pixels from the cell's top left corner.
 struct CellRect {
     std::array<double, 2> from, to;
     double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
@@ -18,6 +19,7 @@ struct CellRect {
 
 CellRect rect_of(const Subpixel& s) { return {{s.rect[0], s.rect[1]}, {s.rect[2], s.rect[3]}}; }
 
+/// Returns a rectangle shrunk about its centre by sqrt(q) in width and height, q the aperture ratio.
 CellRect shrunk(const CellRect& r, double aperture_ratio) {
     const double half = 0.5 * std::sqrt(aperture_ratio);
     CellRect out{};
@@ -29,9 +31,10 @@ CellRect shrunk(const CellRect& r, double aperture_ratio) {
     return out;
 }
 
+/// Returns a modulo n, 0 .. n - 1 also for negative a.
 std::int64_t floor_mod(std::int64_t a, std::int64_t n) { return (a % n + n) % n; }
 
-// The subpixel moved by whole cells, so that its pixel is in the first cell.
+/// Returns the subpixel moved by whole cells, so that its pixel is in the first cell.
 Subpixel in_first_cell(Subpixel s, const std::array<std::int64_t, 2>& cell) {
     for (std::size_t k = 0; k < 2; ++k) {
         const std::int64_t home = floor_mod(s.pixel[k], cell[k]), move = home - s.pixel[k];
@@ -49,7 +52,8 @@ bool alike(const Subpixel& a, const Subpixel& b) {
     return true;
 }
 
-// Whether subpixels in such a cell repeat after fewer pixels already.
+/// Returns whether subpixels that repeat after `cell` repeat after the smaller `period` already: moved by it along each axis, each
+/// of them is again one of them.
 bool repeat_after(const std::vector<Subpixel>& all, const std::array<std::int64_t, 2>& cell,
                   const std::array<std::int64_t, 2>& period) {
     for (std::size_t k = 0; k < 2; ++k)
@@ -63,6 +67,7 @@ bool repeat_after(const std::vector<Subpixel>& all, const std::array<std::int64_
     return true;
 }
 
+/// Returns the smallest divisor of `cell`, by area, after which subpixels repeat.
 std::array<std::int64_t, 2> least_cell(const std::vector<Subpixel>& all, const std::array<std::int64_t, 2>& cell) {
     std::array<std::int64_t, 2> least = cell;
     for (std::int64_t x = 1; x <= cell[0]; ++x)
@@ -72,7 +77,8 @@ std::array<std::int64_t, 2> least_cell(const std::vector<Subpixel>& all, const s
     return least;
 }
 
-// The parts of a subpixel in the cells that it lies in, all of which are the same cell.
+/// Appends the parts of a subpixel, one for each cell that it reaches into; as cells repeat, all are parts of the same cell. `lit`:
+/// its shrunk rectangle; `share`: its share of the channel's light.
 void add_parts(const Subpixel& s, const CellRect& lit, const std::array<std::int64_t, 2>& cell, double share,
                std::vector<LitPart>& to) {
     const double width = double(cell[0]), height = double(cell[1]);
@@ -144,6 +150,7 @@ std::vector<LitPart> lit_parts(const Panel& panel) {
         std::vector<Subpixel> all;
         for (const Subpixel& s : cell.subpixels)
             if (s.channel == channel) all.push_back(in_first_cell(s, cell.size));
+        // One subpixel of each group that repeats, with the share of its area in the channel's
         const std::array<std::int64_t, 2> least = least_cell(all, cell.size);
         std::erase_if(all, [&](const Subpixel& s) { return s.pixel[0] >= least[0] || s.pixel[1] >= least[1]; });
         double area = 0;
@@ -155,6 +162,7 @@ std::vector<LitPart> lit_parts(const Panel& panel) {
 }
 
 std::vector<LitPart> bounded_parts(const Panel& panel) {
+    // Along x, then along y: parts that the border cuts are divided in proportion to their lengths, if their pixel is on the panel.
     std::vector<LitPart> parts = lit_parts(panel);
     for (std::size_t k = 0; k < 2; ++k) {
         std::vector<LitPart> cut;
@@ -181,7 +189,7 @@ std::vector<LitPart> bounded_parts(const Panel& panel) {
 
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel& panel) {
     struct ShiningRect {
-        std::size_t of;
+        std::size_t of;  // number of the subpixel
         CellRect rect;
     };
     std::vector<ShiningRect> parts;

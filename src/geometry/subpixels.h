@@ -55,9 +55,11 @@ class WhitePanel {
     WhitePanel(const Panel&, const ChannelWeights&);
     /// Returns the weighted light at a position, in pixels to the right of and below the panel's top left corner.
     double at(double column, double row) const;
+    /// Returns the mean weighted light.
     double mean() const { return weights_[0] + weights_[1] + weights_[2]; }
     /// Returns the amplitude of its harmonic with (k, l) periods in a cell(), c_kl of docs/measures.md, "Moire".
     std::complex<double> harmonic(int k, int l) const;
+    /// Returns the size of the cell after which all channels repeat, pixels.
     std::array<int, 2> cell() const { return cell_; }
     /// Returns the order along each axis up to which harmonics are not small.
     std::array<int, 2> highest_order() const { return highest_; }
@@ -83,12 +85,13 @@ double gain(const Panel&, int channel);
 /// Returns the largest gain of the three channels.
 double peak(const Panel&);
 
-/// A rectangle in which a pixel emits: from its centre, pixels to the right and down. lit_rects() returns those of the pixel
-/// (column, row) in a channel; none where the channel has no subpixel there.
+/// A rectangle in which a pixel emits: from its centre, pixels to the right and down.
 struct LitRect {
     std::array<double, 2> from, to;
     double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
 };
+/// Returns the rectangles of the pixel (column, row) in a channel (0, 1, 2), shrunk to the aperture ratio; none where the channel
+/// has no subpixel there.
 std::vector<LitRect> lit_rects(const Panel&, int channel, std::int64_t column, std::int64_t row);
 
 /// Returns the centroid of a channel's light of the pixel (column, row), from the pixel's centre: pixels to the right and down;
@@ -101,13 +104,14 @@ std::vector<double> shown_places(const Display&);
 
 /// The cell and the subpixels of a layout before they are shrunk. The layout `none` has no subpixels, in a cell of one pixel.
 struct SubpixelCell {
-    std::array<std::int64_t, 2> size;
+    std::array<std::int64_t, 2> size;  // columns and rows, pixels
     std::vector<Subpixel> subpixels;
 };
+/// Returns the cell of a panel's layout.
 SubpixelCell subpixel_cell(const Panel&);
 
-/// Returns the numbers of two subpixels of a custom layout that overlap, here or in a repeated cell; the same number twice if one
-/// overlaps its own repetition.
+/// Returns the numbers of two subpixels of a custom layout that overlap, in a cell or with those of a neighbouring one; the same
+/// number twice if a subpixel overlaps its repetition; nothing if none overlap.
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel&);
 
 }  // namespace lfdsim

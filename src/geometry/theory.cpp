@@ -15,8 +15,8 @@ namespace lfdsim {
 
 namespace {
 
-/// The angle between the two lines to the axis at the principal point from the ends of a width on the panel, by Snell's law through
-/// layers and air, whose place on the panel grows with its sine in air.
+/// Returns the angle between the two lines to the axis at the principal point from the ends of a width on the panel, by Snell's law
+/// through layers and air. The sine in air is found by bisection, to the last bit, as the place on the panel grows with it.
 double exact_angle_deg(const Geometry& g, double width_mm) {
     const auto half_width = [&](double sine) {
         const double slope = sine / std::sqrt(1 - sine * sine);
@@ -31,6 +31,7 @@ double exact_angle_deg(const Geometry& g, double width_mm) {
     return 2 * std::asin(high) / degree;  // 180 where the whole half space does not reach so far
 }
 
+/// Returns the figures along an axis of the array; L is the central depth, mm.
 AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size_t axis) {
     if (is_strips(d.array) && axis == 1) return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
     const double a = d.panel.pixel_pitch_mm, p = d.array.pitch_mm[axis] * pitch_scale(d.errors), gap = g.gap_mm;
@@ -39,14 +40,15 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     t.views = is_strips(d.array) ? p / (a * g.lattice.cos_turn) : p / a;
     t.view_step_deg = t.fov_deg / t.views;
 
-    // Seen from X = E tan(theta), the lens at x shows the panel at g (x - X)/E from its axis; its elemental image is centred at
-    // e x, with e = g/D' for the distance it was made for, and p (1 + e) wide. All of m lenses show their own image while |X/E|
-    // stays below p (1 + e)/2g - (m - 1) p/2 |1/E - e/g|.
+    // To an eye at X = E tan(theta) the lens at x shows the panel at g (x - X)/E from its axis. The centre of its elemental image
+    // is x g/M from the axis, with M the distance from H' that the images are made for, and the image is p' = p (1 + g/M) wide. So
+    // each of m lenses shows the image that belongs to it while |X/E| is below p'/2g - (m - 1)(p/2) |1/E - 1/M|. Below, e = g/M; 0
+    // for parallel images.
     const double made_for = d.content.viewing_distance_mm - g.rear_principal_mm, eye = eye_distance_mm(d) - g.rear_principal_mm;
     t.elemental_pitch_mm = p * (1 + gap / made_for);
     t.fov_elemental_deg = 2 * std::atan(t.elemental_pitch_mm / (2 * gap)) / degree;
     t.fov_exact_deg = d.lens.is_thin() ? exact_angle_deg(g, t.elemental_pitch_mm) : nan;
-    const bool before = eye > 0;  // else the camera stands inside the display or behind it
+    const bool before = eye > 0;  // else the camera is inside the display or behind it
     t.eyebox_mm = before ? eye * t.elemental_pitch_mm / gap : std::nan("");
     const auto zone_deg = [&](double e) {
         if (!before) return std::nan("");
@@ -64,7 +66,8 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
 
 }  // namespace
 
-// First-order formulas of integral imaging; docs/model.md, "Theory". Symbols as there.
+// The formulas of first order of integral imaging, with the symbols of docs/model.md, "Theory": 1/L = 1/f - 1/g, P_I = a |L|/g, and
+// the ends of the depth of field, 1/z = 1/L +- a/(g D).
 Theory theory(const Display& d, const Geometry& g) {
     const double a = d.panel.pixel_pitch_mm, D = widest_aperture_mm(g), gap = g.gap_mm, f = g.focal_length_mm;
     const bool pinhole = d.lens.type() == LensType::pinhole;
