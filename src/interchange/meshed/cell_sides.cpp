@@ -5,7 +5,7 @@
 namespace lfdsim {
 
 double sheet_half(const Geometry& g) {
-    // the array may be turned and moved: its diagonal and the panel's hold for any angle
+    // The array may be rotated and moved: its diagonal and the panel's serve for any angle. atan(20) is 87.1 degrees.
     const double wide = std::hypot(g.array_width_mm, g.array_height_mm), panel = std::hypot(g.panel_width_mm, g.panel_height_mm);
     return wide / 2 + panel / 2 + std::hypot(g.lattice.offset[0], g.lattice.offset[1]) + 20 * g.top_z_mm;
 }

@@ -1,4 +1,4 @@
-// The border of a cell of the array. Floor 2.
+// The borders of a cell of the array, of the array, and of what represents an infinite sheet. Floor 2.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
@@ -8,22 +8,23 @@
 
 namespace lfdsim {
 
-/// Half the sides of the square that represents an infinite sheet: rays that pass beside it could only reach the panel at more than
-/// 87 degrees from its normal.
+/// Returns half the side, mm, of the square that represents an infinite sheet: rays that pass beside it could only reach the panel
+/// at more than 87 degrees from its normal.
 double sheet_half(const Geometry&);
 
-/// Half the sides of the box about a cell, and of the box about all cells. Strips, which have no end, end with the sheet, at whole
+/// Returns half the sides of the box about a cell, mm along x' and y'. Strips, which have no end, end with the sheet, at whole
 /// millimetres, which single precision holds.
 std::array<double, 2> cell_half(const Display&, const Geometry&);
+/// Returns half the sides of the box about all cells, mm along x' and y'; strips are as long as cell_half() says.
 std::array<double, 2> array_half(const Display&, const Geometry&);
 
-/// A side of a cell: it is normal to `out`, a unit vector in the array's frame.
+/// A side of a cell.
 struct CellSide {
-    std::array<double, 2> out;
-    double from_axis_mm, half_length_mm;
+    std::array<double, 2> out;            // unit vector normal to it, outwards, in the array's frame
+    double from_axis_mm, half_length_mm;  // its distance from the axis; half its length
 };
 
-/// The sides of a rectangle, or of a hexagon with corners up and down, counter-clockwise from the right one.
+/// Returns the sides of a rectangle, or of a hexagon with corners up and down, counter-clockwise from the right one.
 std::vector<CellSide> cell_sides(const Display&, const Geometry&);
 
 }  // namespace lfdsim

@@ -21,7 +21,9 @@ bool is_plane(const PlacedSurface& s) {
 
 double sag(const PlacedSurface& s, double distance) { return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, distance); }
 
-// The upward unit normal at this distance from the axis: components away from the axis and along z. Finite at a half ball's rim.
+/// Returns the upward unit normal at this distance s from the axis: its components away from the axis and along z. It is along
+/// (-dz/ds, 1), with dz/ds = c s/root + 4 a4 s^3 + ...; multiplied by root = sqrt(1 - (1 + k) c^2 s^2) it is finite at a half
+/// ball's rim.
 std::array<double, 2> normal(const PlacedSurface& s, double distance) {
     const double c = s.curvature_per_mm, d2 = distance * distance, root = std::sqrt(std::max(0.0, 1 - (1 + s.conic) * c * c * d2));
     double polynomial = 0;
@@ -30,7 +32,7 @@ std::array<double, 2> normal(const PlacedSurface& s, double distance) {
     return {across / length, root / length};
 }
 
-// The border of a surface as seen along the axis.
+/// The border of a surface in projection along the axis.
 class Outline {
   public:
     Outline(const PlacedSurface& s, const LensArray& array, const std::vector<CellSide>& sides)
@@ -38,8 +40,8 @@ class Outline {
           round_(array.aperture == Aperture::circle),
           reach_(round_ ? radius_ : std::min(radius_, outer_radius_mm(array))),
           sides_(sides) {}
-    // The point at this share of the way round, counter-clockwise. A cell's outline begins in a corner; each side has an equal
-    // share.
+    /// Returns the point at this share of the way round, counter-clockwise. A cell's outline begins in a corner; each side has an
+    /// equal share.
     std::array<double, 2> point(double share) const {
         if (round_) {
             const double angle = 2 * pi * share;
@@ -57,26 +59,26 @@ class Outline {
     double reach() const { return reach_; }
 
   private:
-    double radius_;
+    double radius_;  // semi-aperture
     bool round_;
-    double reach_;  // from the axis
+    double reach_;  // greatest distance from the axis
     const std::vector<CellSide>& sides_;
 };
 
-// Ring k of a curved surface has sectors x k vertices; the last ring is the rim.
+/// The division of a curved surface: ring k has sectors x k vertices; the last ring is the rim.
 struct Grid {
     int sectors, rings;
     int rim() const { return sectors * rings; }
 };
 
-// A strip's slats, each cut into pieces: single precision loses points on triangles of any length.
+/// A strip's slats, each cut into pieces along it: on very long triangles single precision loses points.
 struct Slats {
     std::uint32_t across, along;
     std::uint32_t rim() const { return 2 * (across + along); }
 };
 constexpr double longest_slat = 64;  // times its width
 
-// Distances from the axis that divide the surface's meridian evenly, the last one `reach`.
+/// Returns the distances from the axis that divide the surface's meridian evenly, the last one `reach`.
 std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rings) {
     constexpr int steps = 4096;
     const auto distance = [&](int i) { return reach * std::sin(0.5 * pi * i / steps); };  // dense at a steep rim
@@ -94,6 +96,7 @@ std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rin
     return all;
 }
 
+/// Builds the mesh of a lens: its surfaces, from the panel's side, then the walls of each body of glass between two of them.
 class Builder {
   public:
     Builder(const Display& display, const Geometry& geometry)
@@ -119,7 +122,7 @@ class Builder {
         const double along = sides_[0].half_length_mm / (longest_slat * sides_[0].from_axis_mm) * across;
         return {across, std::uint32_t(std::max(1.0, std::ceil(along)))};
     }
-    // The slats whose number of triangles is closest to the wanted one.
+    /// Returns the slats whose number of triangles is closest to the wanted one.
     Slats choose_slats(double wanted) const {
         double bodies = 0;
         for (std::size_t k = 0; k + 1 < geometry_.surfaces.size(); ++k) bodies += geometry_.surfaces[k].index_above != 1;
@@ -132,7 +135,8 @@ class Builder {
         return slats(across);
     }
 
-    // Number of triangles of such a mesh; exact except for walls of lenses that fill their cells, whose rims touch in parts.
+    /// Returns the number of triangles of such a mesh; exact except for walls of lenses that fill their cells, whose rims touch in
+    /// parts.
     double count(Grid grid) const {
         double sum = 0;
         const auto& surfaces = geometry_.surfaces;
@@ -145,6 +149,7 @@ class Builder {
     }
 
   private:
+    /// Returns whether the rims of two surfaces coincide, so that there is no wall between them.
     bool rims_touch(const PlacedSurface& a, const PlacedSurface& b) const {
         // Most points of a cell's outline are closer to the axis than its corners: the middle of a side represents them.
         const auto middle = Outline(a, array_, sides_).middle_of_side();
@@ -167,6 +172,7 @@ class Builder {
         mesh_.surface_of.push_back(surface);
     }
 
+    /// Adds a surface, and the first vertex of its rim to rims_.
     void add_surface(int number, Grid grid) {
         const PlacedSurface& s = geometry_.surfaces[std::size_t(number)];
         const Outline outline(s, array_, sides_);
@@ -188,6 +194,7 @@ class Builder {
                 add_vertex(x, y, vertex_z + sag(s, distance),
                            {sense * across * x / distance, sense * across * y / distance, sense * up});
             }
+            // Triangles to the ring within: a fan about the pole, then sectors of 2 k - 1 triangles
             if (k == 1) {
                 for (std::uint32_t j = 0; j < around; ++j) face(inner, outer + j, outer + (j + 1) % around);
             } else {
@@ -206,7 +213,8 @@ class Builder {
         rims_.push_back(inner);
     }
 
-    // A cylinder's section, extruded along y. Its points are closer to each other towards the rim, where it may be steep.
+    /// Adds a surface of a strip, a section extruded along y, and the first vertex of its rim to rims_. The section's points are
+    /// closer to each other towards the rim, where it may be steep.
     void add_slats(int number, Slats slats) {
         const PlacedSurface& s = geometry_.surfaces[std::size_t(number)];
         const bool down = s.index_below == 1;
@@ -242,8 +250,8 @@ class Builder {
         rims_.push_back(first);
     }
 
-    // The wall between the rims of two surfaces, each of `around` vertices in sequence. Where the rims are closer than `near` they
-    // are joined and there is no wall.
+    /// Adds the wall between the rims of two surfaces, each of `around` vertices in sequence. Where the rims are closer than `near`
+    /// they are joined and there is no wall.
     void add_wall(std::uint32_t lower, std::uint32_t upper, int around, double near) {
         for (std::uint32_t k = 0; k < std::uint32_t(around); ++k) {
             const float* from = &mesh_.vertices_mm[3 * (lower + k)];
@@ -263,7 +271,8 @@ class Builder {
         }
     }
 
-    // The normal at corner i of a quadrilateral of a wall, lower edge first: a round wall is a cone, that of a cell has flat sides.
+    /// Returns the normal at corner i of a quadrilateral of a wall, lower edge first: a round wall is a cone, that of a cell has
+    /// flat sides.
     Vec3d wall_normal(const Vec3d (&at)[4], int i) const {
         Vec3d n;
         if (array_.aperture == Aperture::circle && !is_strips(array_)) {
@@ -284,8 +293,8 @@ class Builder {
     std::vector<std::uint32_t> rims_;  // first vertex of each surface's rim
 };
 
-// The grid whose number of triangles is closest to the wanted one; among equally close ones that of the best shape: six sectors, or
-// two to a rectangle's side. Of lenses that fill cells with so many sides, 0 otherwise.
+/// Returns the grid whose number of triangles is closest to the wanted one; among equally close ones that of the best shape: six
+/// sectors, or two to a rectangle's side. `sides`: of the cells that lenses fill; 0 for round lenses.
 Grid choose_grid(const Builder& builder, int sides, double wanted) {
     Grid best{};
     double least = INFINITY;

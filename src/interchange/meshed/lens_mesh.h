@@ -23,12 +23,12 @@ struct LensMesh {
 
 inline constexpr std::int64_t least_lens_triangles = 8, most_lens_triangles = 4'000'000;
 
-/// A lens of about so many triangles: within 10 % for 500 and more, else as close as possible. A curved surface is a fan about its
-/// pole and rings, equally spaced along the surface, each with the same number of vertices more than the last, so that triangles
-/// are about as wide as long. A flat surface is a fan to the vertices of its rim. Where lenses fill their cells outlines are
-/// rectangles or hexagons, cut by the semi-apertures. A strip, as long as cell_half() says, has slats, in pieces
-/// 64 times as long as wide. A surface between two glasses, or glued on, faces the viewer. Throws InputError for a thin lens and
-/// for a number beyond the limits.
+/// Returns a lens of about this number of triangles: within 10 % for 500 and more, else as close as possible. A curved surface is a
+/// fan about its pole and rings, equally spaced along the surface, each with the same number of vertices more than the last, so
+/// that triangles are about as wide as long. A flat surface is a fan to the vertices of its rim. Where lenses fill their cells
+/// outlines are rectangles or hexagons, cut by the semi-apertures. A strip, as long as cell_half() says, has slats, in pieces 64
+/// times as long as wide. A surface between two glasses, or glued on, faces the viewer. Throws InputError for a thin lens and for a
+/// number beyond the limits.
 LensMesh mesh_lens(const Display&, const Geometry&, std::int64_t triangles);
 
 }  // namespace lfdsim

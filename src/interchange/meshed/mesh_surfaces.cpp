@@ -81,7 +81,7 @@ MeshSurfaces::Triangle MeshSurfaces::MeshSurface::triangle(const MeshSurfaces& a
 optics::Hit<float> MeshSurfaces::meet(int k, const optics::Ray<float>& ray) const {
     const MeshSurface& s = surfaces_[std::size_t(k)];
     optics::Hit<float> hit{{ray.at.x, ray.at.y, 0}, {0, 0, 1}, 1, 1, false};
-    // Embree's ray begins where the line enters the ball round the surface, so that all its numbers are of the lens's size.
+    // Embree's ray begins where the line enters the ball around the surface, so that all its numbers are of the lens's size.
     const Vec3d d{ray.to.x, ray.to.y, ray.to.z}, at{ray.at.x, ray.at.y, s.vertex_z};
     const Vec3d to_middle{-at[0], -at[1], s.middle_z - at[2]};
     const double length2 = dot(d, d), nearest = dot(to_middle, d) / length2;

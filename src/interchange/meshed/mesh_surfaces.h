@@ -16,9 +16,9 @@ class MeshSurfaces {
   public:
     MeshSurfaces(const LensMesh&, const Geometry&, LensNormals);
 
-    /// The hit on the first triangle of surface k that the ray's line passes downwards. The ray starts in the surface's vertex
-    /// plane; the triangle may lie behind its start. Embree finds the triangle in single precision; point and normal are computed
-    /// in double.
+    /// Returns the hit on the first triangle of surface k that the ray's line passes downwards. The ray starts in the surface's
+    /// vertex plane; the triangle may lie behind its start. Embree finds the triangle in single precision; point and normal are
+    /// computed in double.
     optics::Hit<float> meet(int k, const optics::Ray<float>&) const;
 
   private:
@@ -35,7 +35,7 @@ class MeshSurfaces {
         std::vector<std::uint32_t> triangles;  // into the lens's vertices; counter-clockwise from the viewer
         std::unique_ptr<RTCSceneTy, ReleaseScene> tree;
         double vertex_z;          // in the mesh's frame
-        double middle_z, radius;  // of a ball round it, in that frame
+        double middle_z, radius;  // of a ball around it, centred on the axis, in that frame
         bool turned;              // its normals point down in the mesh
         Triangle triangle(const MeshSurfaces&, std::uint32_t number) const;
     };
@@ -47,7 +47,7 @@ class MeshSurfaces {
     std::vector<MeshSurface> surfaces_;
 };
 
-/// The tracer's input: its own scene, with meshes in place of the surfaces.
+/// The tracer's input with meshes in place of the surfaces.
 struct MeshedScene : optics::TracedDisplay<float> {
     const MeshSurfaces* surfaces;
 };

@@ -15,7 +15,7 @@
 namespace lfdsim {
 namespace {
 
-// Traces the rays of a tile one by one: Embree's time for a ray is far more than packets would save.
+/// Renders a tile, ray by ray: Embree's time for a ray is far more than packets would save.
 void render_tile(const Tile& tile) {
     const optics::TracedDisplay<float>& scene = *tile.display;
     for (std::int32_t y = tile.y0; y < tile.y1; ++y) {

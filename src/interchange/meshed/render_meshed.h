@@ -12,10 +12,11 @@ enum class LensNormals { flat, smooth };
 
 class MeshSurfaces;
 
-/// A lens as mesh_lens() makes it, ready for rays, for any camera. Throws InputError as mesh_lens() does, for surrounds other than
-/// opaque, for lattices other than rows and columns, and for lenses with anything but air under them.
+/// A lens as mesh_lens() makes it, ready for rays of any camera.
 class MeshedLens {
   public:
+    /// Throws InputError as mesh_lens() does, for surrounds other than opaque, for lattices other than rows and columns, for
+    /// dispersion, layers and glued lenses, and for errors of single lenses, a bow or a wedge.
     MeshedLens(const Display&, const Geometry&, std::int64_t triangles, LensNormals);
     std::int64_t triangles() const { return triangles_; }  // their number, in all its parts
     const MeshSurfaces& surfaces() const { return *surfaces_; }

@@ -11,6 +11,7 @@ ArrayFrame array_frame(const Display& d, const Geometry& g) {
     const double cx = std::cos(wedge[0] * degree), sx = std::sin(wedge[0] * degree), cy = std::cos(wedge[1] * degree),
                  sy = std::sin(wedge[1] * degree), c = g.lattice.cos_turn, s = g.lattice.sin_turn;
     const double about[3][3] = {{cy, sy * sx, sy * cx}, {0, cx, -sx}, {-sy, cy * sx, cy * cx}};
+    // `about` is Ry Rx, about[row] times Rz a row of `turn`. The middle of the vertex plane, (0, 0, z_v), goes to (offset, z_v).
     ArrayFrame frame;
     for (int row = 0; row < 3; ++row) {
         const auto& [x, y, z] = about[row];

@@ -1,16 +1,18 @@
-// Where the array's own frame is in the display's. Floor 2.
+// Where the array's frame is in the display's. Floor 2.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
 
 namespace lfdsim::peers {
 
-/// Takes a point p of the array's frame, x and y from its middle, z from the panel, to turn * p + shift_mm.
+/// The place of the array: a point p of its frame, x' and y' from its middle, z from the panel, is at turn p + shift_mm of the
+/// display's.
 struct ArrayFrame {
     double turn[3][3], shift_mm[3];
 };
 
-/// Turned about z and, by a wedge, about the panel's axes, about the array's middle in the plane of the vertices.
+/// Returns the frame of an array that is rotated about z and, by a wedge, about the panel's axes, about its middle c in the plane
+/// of the vertices: turn = Ry(wedge_y) Rx(wedge_x) Rz(rotation).
 ArrayFrame array_frame(const Display&, const Geometry&);
 
 }  // namespace lfdsim::peers

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::int64_t least_triangles = 100;  // so that the outline of a lens has some points on each side of its cell
 
+/// Collects what cannot be expressed.
 class Refusals {
   public:
     Refusals(Peer peer, const Display& d, const Geometry& g, const PeerOptions& o) : peer_(peer), d_(d), g_(g), options_(o) {}
@@ -43,7 +44,7 @@ class Refusals {
     void add(std::string where, std::string what) { problems_.push_back({std::move(where), std::move(what)}); }
     bool meshed() const { return peer_ != Peer::pov || options_.triangles; }
 
-    // Errors of single lenses, and a bow.
+    /// Refuses what cannot be expressed where lenses differ: errors of single lenses, and a bow.
     void differing() {
         if (peer_ != Peer::pov)
             return add("errors",

@@ -16,14 +16,15 @@ using Point = std::array<double, 3>;
 // passes between.
 constexpr double solid_overlap_mm = 1e-3;
 
+/// Appends a vertex and returns its number.
 std::uint32_t add_vertex(Patch& patch, const Point& at, const Point& normal) {
     for (const double p : at) patch.vertices_mm.push_back(float(p));
     for (const double p : normal) patch.normals.push_back(float(p));
     return std::uint32_t(patch.vertices_mm.size() / 3 - 1);
 }
 
+/// Appends a triangle with three vertices that no other triangle shares, unless two of them are one point in single precision.
 void add_triangle(Patch& patch, const Point& a, const Point& b, const Point& c, const Point& normal) {
-    // Where they would meet in single precision
     const auto same = [](const Point& p, const Point& q) {
         return std::equal(p.begin(), p.end(), q.begin(), [](double x, double y) { return float(x) == float(y); });
     };
@@ -35,7 +36,7 @@ constexpr Point up{0, 0, 1};
 
 double angle(const Point& p) { return std::atan2(p[1], p[0]); }
 
-// The border of one surface of the lens, by its angle about the axis.
+/// Returns the vertices on the border of one surface of the lens, in the order of their angles about the axis.
 std::vector<Point> rim(const LensMesh& mesh, std::int32_t surface) {
     std::vector<std::uint64_t> edges;  // those that belong to only one triangle are the border
     for (std::size_t t = 0; t < mesh.count(); ++t) {
@@ -60,6 +61,7 @@ std::vector<Point> rim(const LensMesh& mesh, std::int32_t surface) {
     return points;
 }
 
+/// Returns evenly spaced points of a circle about the axis, from the angle -pi on.
 std::vector<Point> circle(double radius, std::size_t count) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < count; ++i) {
@@ -69,20 +71,21 @@ std::vector<Point> circle(double radius, std::size_t count) {
     return points;
 }
 
-// The corner between a side of the cell and the next one, both moved out by `wider`.
+/// Returns the corner between a side of the cell and the next one, both moved out by `wider`.
 Point corner_after(const std::vector<CellSide>& sides, std::size_t number, double wider, double z) {
     const CellSide &a = sides[number], &b = sides[(number + 1) % sides.size()];
     const double da = a.from_axis_mm + wider, db = b.from_axis_mm + wider, det = a.out[0] * b.out[1] - a.out[1] * b.out[0];
     return {(da * b.out[1] - db * a.out[1]) / det, (a.out[0] * db - b.out[0] * da) / det, z};
 }
 
-// The face from a polygon about the axis to the cell's border, and `wider` beyond it, all at one height; nothing where the polygon
-// lies on the border.
+/// Appends the face from a polygon about the axis to the cell's border, and `wider` beyond it, all at one height; nothing where the
+/// polygon lies on the border.
 void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std::vector<CellSide>& sides, double wider) {
     struct CornerPair {
         Point in, out;
         std::size_t side;
     };
+    // Each point of the polygon, and the point of the border in its direction from the axis, with the side that this is on
     const auto towards = [](const CellSide& side, const Point& p) { return side.out[0] * p[0] + side.out[1] * p[1]; };
     std::vector<CornerPair> pairs;
     for (const Point& p : inner) {
@@ -99,6 +102,7 @@ void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std
             return std::min(towards(side, a), towards(side, b)) >= side.from_axis_mm - 1e-6;
         });
     };
+    // Between neighbouring points two triangles, and one more for each corner of the cell between their directions
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const CornerPair &a = pairs[i], &b = pairs[(i + 1) % pairs.size()];
         if (along_border(a.in, b.in)) continue;
@@ -113,7 +117,7 @@ void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std
     }
 }
 
-// The places in the box about all cells that no cell of staggered rows covers, at one height, in the array's frame.
+/// Appends the places in the box about all cells that no cell of staggered rows covers, at one height, in the array's frame.
 void add_between(Patch& patch, const Display& d, const Geometry& g, double z) {
     const Lattice<double>& lattice = g.lattice;
     if (!lattice.staggered) return;
@@ -122,7 +126,7 @@ void add_between(Patch& patch, const Display& d, const Geometry& g, double z) {
     const double beside = lattice.hexagonal ? up_to / 2 : up_to;  // half the height of a cell's left and right side
     const auto columns = std::int64_t(lattice.count[0]), rows = std::int64_t(lattice.count[1]);
     for (std::int64_t j = 0; j < rows; ++j) {
-        // Half a cell: of even rows, which stand to the left, on the right
+        // Half a cell at the row's end: of even rows, which are shifted to the left, on the right
         const double sign = j % 2 == 0 ? 1 : -1, row = (double(j) - 0.5 * double(rows - 1)) * lattice.pitch[1];
         const Point a{sign * (x - p / 2), row - sign * beside, z}, b{sign * x, row - sign * up_to, z},
             c{sign * x, row + sign * up_to, z}, e{sign * (x - p / 2), row + sign * beside, z};
@@ -141,7 +145,7 @@ void add_between(Patch& patch, const Display& d, const Geometry& g, double z) {
     }
 }
 
-// The face between a rectangle and a larger square, at one height.
+/// Appends the face between a rectangle and a larger square, at one height; `inner` and `half`: half the sides.
 void add_frame(Patch& patch, const std::array<double, 2>& inner, double z, double half) {
     const double x[4] = {-half, -inner[0], inner[0], half}, y[4] = {-half, -inner[1], inner[1], half};
     const auto rectangle = [&](int i0, int j0, int i1, int j1) {
@@ -155,11 +159,12 @@ void add_frame(Patch& patch, const std::array<double, 2>& inner, double z, doubl
     rectangle(2, 1, 3, 2);
 }
 
-// A whole face as one triangle, wider than the sheet: at a seam a ray could be refracted twice.
+/// Appends a whole face as one triangle, wider than the sheet: at a seam between two a ray could be refracted twice.
 void add_face(Patch& patch, double z, double half) {
     add_triangle(patch, {-half, -half, z}, {4 * half, -half, z}, {-half, 4 * half, z}, up);
 }
 
+/// Builds the triangles of an array: lens surfaces and walls, the flat parts of a plate, layers, and the black parts.
 class ArrayBuilder {
   public:
     ArrayBuilder(const Display& d, const Geometry& g, std::int64_t triangles)
@@ -183,11 +188,14 @@ class ArrayBuilder {
     }
 
   private:
+    /// Appends a patch to a list, unless it has no triangle.
     static void take(std::vector<Patch>& list, Patch&& patch) {
         if (patch.count() > 0) list.push_back(std::move(patch));
     }
+    /// Returns a height from the panel in the patches' frame.
     double local(double z) const { return z - geometry_.base_z_mm; }
 
+    /// Copies a surface of the lens's mesh, or its walls, to a patch, with the vertices that its triangles use.
     void add_part(Patch& patch, std::int32_t surface) const {
         constexpr std::uint32_t none = ~0u;
         std::vector<std::uint32_t> numbers(mesh_.vertices_mm.size() / 3, none);
@@ -205,6 +213,8 @@ class ArrayBuilder {
         }
     }
 
+    /// Adds surface k: a plane as one face for all lenses, except in `clear`; else in each cell, in a plate with the flat part
+    /// around it.
     void add_surface(std::size_t k) {
         const PlacedSurface& s = geometry_.surfaces[k];
         const bool clear = display_.array.surround == Surround::clear, down = s.index_below == 1;
@@ -228,7 +238,7 @@ class ArrayBuilder {
         take(made_.sheet, std::move(beside));
     }
 
-    // The layers' upper faces, except where the lens's own face is that.
+    /// Adds the layers' upper faces, except where a lens's glued face is the top layer's.
     void add_layers() {
         const std::vector<PlacedLayer>& layers = geometry_.layers;
         double z = geometry_.layers_top_mm, above = 1;
@@ -249,20 +259,22 @@ class ArrayBuilder {
         }
     }
 
-    // This height, moved a little in front of a flat face at the same height.
+    /// Returns a height, moved a little in front of a flat face that is at the same height.
     double before_faces(double z) const {
         for (const PlacedSurface& s : geometry_.surfaces)
             if (is_plane(s) && std::abs(s.z_mm - z) < solid_overlap_mm) z = s.z_mm + solid_overlap_mm;
         return z;
     }
 
-    // The border of a stop's hole or slit.
+    /// Returns the border of a stop's hole or slit.
     std::vector<Point> hole(double radius) const {
         if (!geometry_.lattice.strips) return circle(radius, 512);
         const double y = cell_half(display_, geometry_)[1];
         return {{-radius, -y, 0}, {radius, -y, 0}, {radius, y, 0}, {-radius, y, 0}};
     }
 
+    /// Adds what absorbs: rings between lenses, beside the array the highest and the lowest of them, the stop's sheet, and in
+    /// `opaque` the barrels between surfaces, from rim to rim.
     void add_black() {
         Patch black{"black", true, 1, 1, {}, {}, {}}, beside{"black-beside", true, 1, 1, {}, {}, {}};
         const auto& surfaces = geometry_.surfaces;
@@ -300,7 +312,8 @@ class ArrayBuilder {
         return polygon;
     }
 
-    // Rims have their points at the same angles, except square apertures that are cut at different places.
+    /// Appends the wall between two rims. They have their points at the same angles, except square apertures that are cut at
+    /// different places.
     static void add_barrel(Patch& patch, const std::vector<Point>& low, const std::vector<Point>& high) {
         const std::size_t count = std::min(low.size(), high.size());
         for (std::size_t i = 0; i < count; ++i) {

@@ -17,33 +17,36 @@ struct Patch {
     std::string name;  // letters, digits and dashes
     bool black;
     double index_front = 1, index_back = 1;
-    std::vector<float> vertices_mm, normals;  // normals towards the front
-    std::vector<std::uint32_t> triangles;
-    bool of_lens = true;  // false: a layer's, at which total reflection is black
+    std::vector<float> vertices_mm, normals;  // three numbers each; normals towards the front
+    std::vector<std::uint32_t> triangles;     // three vertices each
+    bool of_lens = true;                      // false: a layer's, at which total reflection is black
 
     std::size_t count() const { return triangles.size() / 3; }
 };
 
+/// An array as triangles.
 struct MeshedArray {
-    std::vector<Patch> cell;   // about the axis of each lens
-    std::vector<Patch> sheet;  // about the middle of the array, in its frame
+    std::vector<Patch> cell;   // the parts about the axis of each lens
+    std::vector<Patch> sheet;  // the parts that exist once, about the middle of the array, in its frame
     std::size_t lens_triangles;
 };
 
-/// Throws InputError as mesh_lens() does.
+/// Returns the array with lenses of about this number of triangles. Throws InputError as mesh_lens() does.
 MeshedArray mesh_array(const Display&, const Geometry&, std::int64_t triangles);
 
-/// Black rings around the lenses: at this height everything farther than the radius from a lens's axis absorbs (0: outside its
-/// cell).
+/// A black ring around each lens: at this height, from the panel, everything farther than the radius from the lens's axis absorbs
+/// (0: outside its cell).
 struct Ring {
     double z_mm, radius_mm;
 };
-/// Returns the rings of the black part between lenses, highest first, none unless the surround is opaque; and that of the stop.
+/// Returns the rings of the black part between lenses, highest first; none unless the surround is opaque.
 std::vector<Ring> black_rings(const Display&, const Geometry&);
+/// Returns the ring of the stop, if there is one.
 std::vector<Ring> stop_rings(const Display&, const Geometry&);
 
-/// Height of a surface at the rim of its aperture.
+/// Returns the height of a surface at its semi-aperture, mm from the panel.
 double rim_z(const PlacedSurface&);
+/// Returns whether a surface has neither curvature nor aspheric terms.
 bool is_plane(const PlacedSurface&);
 
 }  // namespace lfdsim::peers

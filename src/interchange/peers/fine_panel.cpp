@@ -10,9 +10,10 @@
 namespace lfdsim {
 namespace {
 
-constexpr int most_times = 12;
-constexpr double most_pixels = 1 << 28;
+constexpr int most_times = 12;           // fine pixels in a pixel, along an axis
+constexpr double most_pixels = 1 << 28;  // of a fine panel
 
+/// Returns whether all borders of subpixels are borders of fine pixels.
 bool shows_borders(const std::vector<LitPart>& parts, int times) {
     const auto on_grid = [times](double place) { return std::abs(place * times - std::round(place * times)) < 1e-6; };
     return std::all_of(parts.begin(), parts.end(), [&](const LitPart& part) {
@@ -25,6 +26,7 @@ struct FinePart {
     LitPart part;
     std::int64_t times;
 
+    /// Returns whether the centre of a fine pixel, whose column (axis 0) or row (1) is `place`, lies in the part along that axis.
     bool holds(std::int64_t place, std::size_t axis) const {
         const double at = (double(place % cell(axis)) + 0.5) / double(times);
         return at >= part.from[axis] && at < part.to[axis];
@@ -46,6 +48,7 @@ struct FinePart {
     }
 };
 
+/// Returns the largest brightness of the parts in fine pixels.
 double peak_of(const std::vector<LitPart>& parts, int times) {
     double most = 0;
     for (const LitPart& part : parts) most = std::max(most, FinePart{part, times}.brightness());

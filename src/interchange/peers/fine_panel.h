@@ -21,7 +21,8 @@ struct FinePanel {
 /// rounded. Throws InputError for a panel that would have too many.
 FinePanel fine_panel(const Display&);
 
-/// The fine panel's image of a panel image. Throws std::bad_alloc.
+/// Returns the fine panel's image of a panel image `shown`. `panel`: that of the display from which the fine panel was made. Throws
+/// std::bad_alloc.
 Texels fine_image(const FinePanel&, const Panel& panel, const Texels& shown);
 
 }  // namespace lfdsim

@@ -17,6 +17,7 @@ std::string_view name_of(Peer peer) {
 
 namespace {
 
+/// Returns a display at one wavelength as a scene, with deviations that programs have in common, then those of the program.
 PeerScene scene_of(Peer peer, const Display& display, const Geometry& geometry, const PeerOptions& options) {
     PeerScene scene;
     const auto& surfaces = geometry.surfaces;

@@ -15,9 +15,12 @@
 
 namespace lfdsim {
 
+/// The other renderers: POV-Ray, Blender's Cycles, Mitsuba 3.
 enum class Peer { pov, cycles, mitsuba };
+/// The normals of a lens's triangles: that of each plane, or those of the true surface, interpolated.
 enum class MeshNormals { flat, smooth };
 
+/// How a scene is written.
 struct PeerOptions {
     std::optional<std::int64_t> triangles;  // of a lens; absent: true surfaces for pov, default_triangles for the others
     MeshNormals normals = MeshNormals::flat;
@@ -26,13 +29,15 @@ struct PeerOptions {
 
 /// The number of triangles of a lens in the 2019 paper.
 inline constexpr std::int64_t default_triangles = 3386;
-/// A scene of POV-Ray holds its triangles as text.
+/// The most triangles of a lens in a scene of POV-Ray, which holds them as text.
 inline constexpr std::int64_t most_pov_triangles = 1'000'000;
 
+/// A file of a scene.
 struct PeerFile {
     std::string name, bytes;
 };
 
+/// A display as a scene.
 struct PeerScene {
     std::vector<PeerFile> files;  // the scene first
     std::string panel_file;       // the panel image's name in the scene: .png, 16-bit codes linear in light, or .exr
@@ -42,18 +47,20 @@ struct PeerScene {
     std::vector<std::string> deviations;
 };
 
-std::string_view name_of(Peer);  // of the program
+/// Returns the program's name.
+std::string_view name_of(Peer);
 
-/// Everything in a display that cannot be expressed for that program, each with the key and the remedy. Empty: all can be.
+/// Returns everything in a display that cannot be expressed for that program, each with the key and the remedy; nothing if all can
+/// be.
 std::vector<Problem> not_expressed(Peer, const Display&, const Geometry&, const PeerOptions&);
 
-/// Throws InputError with the problems of not_expressed().
+/// Returns the display as a scene, except for the panel image. Throws InputError with the problems of not_expressed().
 PeerScene peer_scene(Peer, const Display&, const Geometry&, const PeerOptions&);
 
-/// The panel's light as a scene of such a channel has it: the others are black.
+/// Returns the panel's light as a scene of such a channel has it, the others being black; of no channel it is unchanged.
 Texels light_of_channel(Texels, std::optional<int> channel);
 
-/// A further deviation of a scene, if its panel file cannot hold this light.
+/// Returns a further deviation of a scene, if its panel file cannot hold this light.
 std::optional<std::string> panel_deviation(const PeerScene&, const Texels&);
 
 }  // namespace lfdsim

@@ -6,7 +6,8 @@
 
 namespace lfdsim::peers {
 
-/// Stanford's PLY, binary, little endian: x y z nx ny nz as floats, then three 32-bit numbers for each triangle.
+/// Returns a file in Stanford's PLY, binary, little endian: x y z nx ny nz of each vertex as floats, then for each triangle a byte,
+/// 3, and three 32-bit numbers.
 std::string ply(const Patch&);
 
 }  // namespace lfdsim::peers

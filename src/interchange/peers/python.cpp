@@ -15,6 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Returns the camera as the scripts read it: mm, in the display's frame.
 Json camera(const Display& d, const Geometry& g) {
     const optics::RayOrigin view = make_ray_origin(d, g);
     const auto list = [](const double* v) { return Json{v[0], v[1], v[2]}; };
@@ -24,6 +25,7 @@ Json camera(const Display& d, const Geometry& g) {
             {"size", {view.width, view.height}},  {"whole_pixels", d.camera.pixel_filter == PixelFilter::box ? 1 : 0}};
 }
 
+/// Returns the diffuser as the scripts read it; empty if there is none.
 Json diffuser(const Display& d, const Geometry& g) {
     if (!d.diffuser) return Json::object();
     return {{"z_mm", *g.diffuser_z_mm},
@@ -32,6 +34,7 @@ Json diffuser(const Display& d, const Geometry& g) {
             {"gaussian", d.diffuser->profile == Profile::gaussian ? 1 : 0}};
 }
 
+/// Returns a list of patches, and appends their files.
 Json patches(const std::vector<Patch>& all, bool opaque, std::vector<PeerFile>& files) {
     Json list = Json::array();
     for (const Patch& patch : all) {
@@ -47,7 +50,7 @@ Json patches(const std::vector<Patch>& all, bool opaque, std::vector<PeerFile>& 
     return list;
 }
 
-// A line for each entry.
+/// Returns the data as a literal of Python, a line for each entry.
 std::string literal(const Json& data) {
     std::string text = "SCENE = {\n";
     for (const auto& [key, value] : data.items()) text += fmt::format("    {}: {},\n", Json(key).dump(), value.dump(-1, ' ', true));

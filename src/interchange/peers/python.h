@@ -11,7 +11,8 @@ namespace lfdsim::peers {
 extern const char* const cycles_script;
 extern const char* const mitsuba_script;
 
-/// Adds the scene's files, picture and command, and its deviations, as write_pov() does. options.triangles must be set.
+/// Adds the scene's files, picture and command, and its deviations, for cycles or mitsuba, as write_pov() does. options.triangles
+/// must be set.
 void write_python(Peer, const Display&, const Geometry&, const PeerOptions&, std::vector<std::string> head, PeerScene&);
 
 }  // namespace lfdsim::peers

@@ -31,6 +31,7 @@ namespace {
 
 constexpr double overlap_mm = 1e-6;  // of walls of neighbouring cells
 
+/// Writes a display as a scene. Its functions return text of POV-Ray; shapes are in mm, `Place` scales them to POV-Ray's units.
 class PovWriter {
   public:
     PovWriter(const Display& d, const Geometry& g, const PeerOptions& o)
@@ -65,11 +66,12 @@ class PovWriter {
 
     bool fresnel() const { return d_.render.fresnel == Fresnel::exact; }
     bool differ() const { return lenses_differ(d_.errors); }
-    // What is seen in reflections: nothing, where they are only the loss that Fresnel's equations tell, or end in black.
+    // Objects are not visible in reflections where these are only the loss by Fresnel's equations, or end in black.
     std::string flag() const { return fresnel() || (differ() && d_.array.surround == Surround::opaque) ? " no_reflection" : ""; }
 
-    // Hits on the way: all surfaces once, or up to 16, then the layers and the panel. A glued face, unless it vanishes between
-    // equal indices, is one of both; beside a glued body of glass, light that meets as many surfaces may so be lost.
+    /// Returns the most hits of a ray: all surfaces once, or up to 16, then the layers and the panel. A glued face, unless it
+    /// vanishes between equal indices, counts as a surface and as a layer's face; beside a glued body of glass, light that meets as
+    /// many surfaces may therefore be lost.
     int trace_levels() const {
         const int below = int(g_.layers.size()) + 1;
         if (d_.lens.is_thin()) return below;
@@ -92,7 +94,8 @@ class PovWriter {
                            vector(right), vector(up));
     }
 
-    // From the array's frame to the display's. POV-Ray's order of a matrix: images of the axes, then the shift.
+    /// Returns the transformation from the array's frame to the display's, in units. POV-Ray's order of a matrix: images of the
+    /// axes, then the shift.
     std::string place() const {
         const ArrayFrame frame = array_frame(d_, g_);
         std::string numbers;
@@ -111,7 +114,8 @@ class PovWriter {
             file, vector(w, h, 1), vector(-w / 2, -h / 2, 0), text(units_per_mm_), flag());
     }
 
-    // The layers' upper faces, except where the lens's own face is that. Their interior texture is seen from below.
+    /// Returns the layers' upper faces, except where a lens's glued face is the top layer's. The interior texture is that from
+    /// below.
     std::string layers() const {
         std::string all;
         double z = g_.layers_top_mm;
@@ -124,7 +128,7 @@ class PovWriter {
         return all;
     }
 
-    // In a union of all lenses each needs a bounding box; POV-Ray gives one to lenses that are separate objects.
+    /// Returns the bounding box of a lens in a union of all lenses; POV-Ray gives one to lenses that are separate objects.
     std::string cell_bounds() const {
         if (d_.array.surround != Surround::plate) return "";
         double low = g_.base_z_mm, high = g_.top_z_mm;
@@ -132,21 +136,22 @@ class PovWriter {
         return fmt::format("  bounded_by {{ {} }}\n", cell_.box(low - 0.01, high + 0.01, 0.01));
     }
 
-    // Whether a cell has room beside a hole of this radius.
+    /// Returns whether a cell has room beside a hole of this radius.
     bool beside_hole(double radius) const { return radius < outer_radius_mm(d_.array); }
 
-    // The flat part of the cell outside a lens's aperture.
+    /// Returns the flat part of the cell outside a lens's aperture.
     std::string ring(double z, double radius, const std::string& matter) const {
         return fmt::format("{} {} }}\n", cell_.flat(z, radius), matter);
     }
-    // The flat part outside the array.
+    /// Returns the flat part outside the array, without the closing brace.
     std::string beside(double z, const std::string& matter) const {
         const auto [x, y] = array_half(d_, g_);
         return fmt::format("disc {{ {}, z, {} clipped_by {{ box {{ {}, {} inverse }} }} {}", vector(0, 0, z),
                            text(100 * sheet_half(g_)), vector(-x, -y, z - 1), vector(x, y, z + 1), matter);
     }
 
-    // The places in the box about all cells that no cell of staggered rows covers: cells without lenses, cut off at the box.
+    /// Returns the places in the box about all cells that no cell of staggered rows covers: cells without lenses, cut off at the
+    /// box.
     std::string between(const std::string& flats) const {
         if (!lattice_.staggered || flats.empty()) return "";
         const auto [x, y] = array_half(d_, g_);
@@ -162,16 +167,16 @@ class PovWriter {
 
     std::string face(double z) const { return fmt::format("disc {{ {}, z, {} ", vector(0, 0, z), text(100 * sheet_half(g_))); }
 
-    // A black face in the plane of a flat one, or of the panel, is placed in front of it.
+    /// Returns the height of a black face, which is placed in front of a flat one, or of the panel, in the same plane.
     double before_faces(double z) const {
         for (const PlacedSurface& s : g_.surfaces)
             if (is_plane(s) && std::abs(s.z_mm - z) < gap_mm_) z = s.z_mm + gap_mm_;
         return z;
     }
-    // A black part may end in the plane of a flat face, but not in that of the panel.
+    /// Returns the height of a black part, which may end in the plane of a flat face, but not in that of the panel.
     double above_panel(double z) const { return std::max(z, gap_mm_); }
 
-    // Whether this surface is glued onto the bare panel: there is none.
+    /// Returns whether this surface is glued onto the bare panel: the scene has none then.
     bool on_panel(const PlacedSurface& s) const { return &s == glued_ && g_.layers.empty(); }
 
     std::string lens() const {
@@ -222,7 +227,7 @@ class PovWriter {
         return parts;
     }
 
-    // The black wall around a lens, of a strip to its left and right.
+    /// Returns the black wall around a lens; of a strip those to its left and right.
     std::string barrel(double radius, double low, double high) const {
         if (!lattice_.strips)
             return fmt::format("  cylinder {{ {}, {}, {} open {} }}\n", vector(0, 0, low), vector(0, 0, high), text(radius),
@@ -231,7 +236,7 @@ class PovWriter {
         return upright({-radius, -y}, {-radius, y}, low, high, black()) + upright({radius, -y}, {radius, y}, low, high, black());
     }
 
-    // A rectangle that stands on a line.
+    /// Returns an upright rectangle over the line between two points, from one height to another.
     static std::string upright(std::array<double, 2> from, std::array<double, 2> to, double low, double high,
                                const std::string& matter) {
         const std::string begin = vector(from[0], from[1], low);
@@ -239,7 +244,7 @@ class PovWriter {
                            vector(to[0], to[1], high), vector(from[0], from[1], high), begin, matter);
     }
 
-    // One body of glass: closed, unless it is glued on.
+    /// Returns one body of glass of the surround `clear`: closed, unless it is glued on.
     std::string body() const {
         const PlacedSurface &lower = g_.surfaces.front(), &upper = g_.surfaces.back();
         const bool filled = d_.array.aperture == Aperture::cell;
@@ -255,7 +260,7 @@ class PovWriter {
                            pov_space(upper, cell_, false, reach, low - 1, high + 1), medium(lower.index_above), cut);
     }
 
-    // The same lens as triangles; copies share each patch's mesh.
+    /// Returns what lens() does, as triangles; copies share each patch's mesh.
     std::string meshed_lens() const {
         const MeshedArray made = mesh_array(d_, g_, *options_.triangles);
         const bool opaque = d_.array.surround == Surround::opaque, clear = d_.array.surround == Surround::clear;
@@ -294,8 +299,8 @@ class PovWriter {
         return all;
     }
 
-    // For a plate whose lenses fill their cells: the upright faces on a cell's side, between a cap and the flat part where there is
-    // no lens beyond it, and between the caps of bricks, which meet at different heights.
+    /// Returns the upright faces on a cell's side, for a plate whose lenses fill their cells: between a cap and the flat part where
+    /// there is no lens beyond it, and between the caps of bricks, which meet at different heights.
     std::string side_walls(const PovCell::PrismSide& side, bool at_border) const {
         std::string walls;
         for (const PlacedSurface& s : g_.surfaces) {
@@ -322,8 +327,8 @@ class PovWriter {
         return walls;
     }
 
-    // The plate: a single union, so that its faces share their medium; rows of lenses in boxes, so that a ray is tested against
-    // few.
+    /// Returns the plate: a single union, so that its faces share their medium; rows of lenses in boxes, so that a ray is tested
+    /// against few.
     std::string sheet() const {
         const double index = g_.surfaces.front().index_above;
         const auto [x, y] = array_half(d_, g_);
@@ -366,7 +371,7 @@ class PovWriter {
     const Geometry& g_;
     Lattice<double> lattice_;
     const PovCell cell_;
-    const PlacedSurface* glued_;  // the face that lies on the layers or the panel without air
+    const PlacedSurface* glued_;  // the face that lies on the layers or the panel without air; null: there is none
     const double gap_mm_, units_per_mm_;
     const PeerOptions& options_;
 };

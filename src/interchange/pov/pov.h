@@ -6,7 +6,7 @@
 
 namespace lfdsim::peers {
 
-/// Adds the scene's file, picture and command, and its deviations. `head`: lines for its first comment, followed by the deviations.
+/// Adds the scene's file, picture and command, and its deviations. `head`: lines for its first comment, before the deviations.
 void write_pov(const Display&, const Geometry&, const PeerOptions&, std::vector<std::string> head, PeerScene&);
 
 }  // namespace lfdsim::peers

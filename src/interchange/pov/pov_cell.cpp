@@ -27,7 +27,7 @@ std::string PovCell::box(double low, double high, double wider) const {
 
 std::string PovCell::prism(double low, double high, double wider) const {
     if (!lattice_.hexagonal) return box(low, high, wider);
-    // What three strips with pairs of parallel sides have in common
+    // A hexagon is what three strips, turned by 60 degrees against each other, have in common.
     const double x = half_[0] + wider, y = 2 * half_[1];
     std::string strips;
     for (const int turn : {0, 60, 120})
@@ -63,7 +63,8 @@ std::vector<PovCell::PrismSide> PovCell::sides() const {
         all.push_back({{-x, -y}, {x, -y}, {0, -py}, bottom});
         return all;
     }
-    // Odd rows stand to the right: their right neighbours above and below have the next number, of even rows the same one.
+    // Odd rows are shifted to the right: their right neighbours above and below have the next number, those of even rows the same
+    // one.
     const std::string no_right = fmt::format("I + mod(J, 2) > {}", last(0)), no_left = "I + mod(J, 2) < 1";
     double side_y = y;  // where the sides to left and right end: a hexagon's corners are up and down
     if (lattice_.hexagonal) {

@@ -14,15 +14,17 @@ namespace lfdsim::peers {
 namespace {
 
 constexpr double seam_mm = 1e-6;   // by which neighbouring tiles overlap
-constexpr double spare_mm = 1e-4;  // by which what is said to be near is nearer
+constexpr double spare_mm = 1e-4;  // added to distances at which lenses count as near, and to boxes
 constexpr double same_mm = 1e-9;   // of heights
 
+/// Returns whether a lens is displaced aside or tilted.
 bool moved(const LensError& e) { return e.aside_mm[0] != 0 || e.aside_mm[1] != 0 || e.tilt_deg[0] != 0 || e.tilt_deg[1] != 0; }
 
 }  // namespace
 
 PovStands::PovStands(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(d, g), far_(100 * sheet_half(g)) {
     low_ = g.base_z_mm - 1, high_ = g.top_z_mm + 1;
+    // A tilted column reaches as far aside as its width, its displacement and the tilt at its lowest and highest points make it.
     const std::vector<LensError> errors = lenses_as_built(d, g.lattice);
     const bool filled = d.array.aperture == Aperture::cell;
     double widest = 0;
@@ -62,7 +64,8 @@ std::vector<PlacedSurface> PovStands::surfaces(std::size_t k) const {
     return own;
 }
 
-// POV-Ray's order of a matrix: images of the axes, then the shift.
+// A point q goes to v + Ry Rx (q - v) + errors, v the vertex on the lattice's axis (docs/model.md, "Errors"). POV-Ray's order of a
+// matrix: images of the axes, then the shift.
 std::string PovStands::frame(std::size_t k) const {
     const auto& [i, j, at, e, raised, upright, aslant, reach] = stands_[k];
     const double x = at[0] + e.aside_mm[0], y = at[1] + e.aside_mm[1], z = e.height_mm;
@@ -178,6 +181,7 @@ std::optional<std::array<double, 2>> PovStands::walls() const {
             wide = std::max(wide, of.semi_aperture_mm);
         }
         if (filled) wide = std::min(wide, cell_.strips() ? cell_.half()[0] : cell_.outer_radius());
+        // The lowest point of the highest rim and the highest of the lowest, of a lens tilted about its vertex
         const double v = g_.vertex_plane_mm, own = v + s.error.height_mm - s.raised;
         high = std::min(high, own + (top - v) * s.upright - wide * s.aslant);
         low = std::max(low, own + (bottom - v) * s.upright + wide * s.aslant);

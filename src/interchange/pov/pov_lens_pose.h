@@ -1,8 +1,10 @@
-// Lenses that differ from each other, in POV-Ray's words: each one's place and turn, its own surfaces, its part of what lies
-// between lenses, and which others are near. Floor 2.
+// Lenses that differ from each other, as shapes of POV-Ray: each lens's pose and surfaces, its part of what lies between lenses,
+// and which others are near. Floor 2.
 //
-// Two frames: the lens's own, in which it is the perfect one, x and y from its axis, z from the panel; and the array's, x and y
-// from its middle.
+// There are two frames: the lens's, in which it is the perfect one, x and y from its axis, z from the panel; and the array's, x and
+// y from its middle. In the array's a lens is moved and tilted about its viewer-side vertex.
+// Lenses are numbered row by row from the lower left. A lens's column is the space over its aperture, its tile the part of the
+// plane that belongs to it. Functions that return strings return shapes or transformations of POV-Ray.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
@@ -31,39 +33,40 @@ class PovStands {
     const LensError& error(std::size_t k) const { return stands_[k].error; }  // with the bow in its height
     double raised(std::size_t k) const { return stands_[k].raised; }          // by the bow
 
-    /// Returns the surfaces of lens k in its own frame, with its own curvature.
+    /// Returns the surfaces of lens k in its frame, with its curvature.
     std::vector<PlacedSurface> surfaces(std::size_t k) const;
-    /// The transformation from its own frame to the array's.
+    /// Returns the transformation from lens k's frame to the array's: Ry(tilt_y) Rx(tilt_x) about the vertex, then the shift.
     std::string frame(std::size_t k) const;
-    /// The space over its aperture in its own frame, from low() to high(), its sides moved out by `wider`.
+    /// Returns a column in the lens's frame, from low() to high(), its sides moved out by `wider`.
     std::string column(double radius, double wider) const;
     /// Returns a shape of lens k placed in the array's frame.
     std::string placed(std::size_t k, const std::string& shape) const;
 
-    /// Other lenses whose columns may meet its own or its tile.
+    /// Returns the other lenses whose columns may meet lens k's column or tile.
     std::vector<std::size_t> near(std::size_t k) const;
-    /// Whether columns of any two lenses may meet.
+    /// Returns whether columns of any two lenses may meet.
     bool overlap() const;
 
-    /// The rectangle about its lattice point, as wide as the pitch: x and y of two corners in the array's frame. Those of lenses at
-    /// the array's border go on outwards without end. Tiles cover the plane.
+    /// Returns the tile of lens k, the rectangle about its lattice point, as wide as the pitch: x and y of two corners in the
+    /// array's frame. Tiles of lenses at the array's border continue outwards without end. Tiles cover the plane.
     std::array<double, 4> tile(std::size_t k) const;
     /// Returns the tile of lens k as a box between two heights.
     std::string tile_box(std::size_t k, double low, double high) const;
     /// Returns the tile of lens k at one height, in the array's frame, less the holes, without the closing brace.
     std::string flat(std::size_t k, double z, const std::vector<std::string>& holes) const;
 
-    /// Boxes about all that belongs to a lens and its tile, and about all lenses of its row.
+    /// Returns a box about all that belongs to lens k and its tile.
     std::string box(std::size_t k) const;
+    /// Returns a box about all lenses from lens k to the end of its row.
     std::string row_box(std::size_t k) const;
 
-    /// The black sheet of the stops' holes, which are moved with the lenses but do not turn; nothing without stops.
+    /// Returns the black sheet of the stops' holes, which are moved with the lenses but not tilted; nothing without stops.
     std::string stops() const;
 
-    /// Heights between which the walls of all lenses are, when the bow is taken off: absent if there are none, or if they are less
-    /// than four times what neighbours differ in height by the bow.
+    /// Returns the heights between which the walls of all lenses are, without the bow; nothing if there are none, or if they are
+    /// less apart than four times what neighbours differ in height by the bow.
     std::optional<std::array<double, 2>> walls() const;
-    /// Whether all lenses stand equally high.
+    /// Returns whether all lenses are at the same height.
     bool level() const;
 
   private:

@@ -11,8 +11,8 @@
 namespace lfdsim::peers {
 namespace {
 
-constexpr double longest_units = 4e6;
-constexpr double least_units = 1e-3;  // between surfaces that a ray meets
+constexpr double longest_units = 4e6;  // of a ray, less than POV-Ray's limit of 1e7
+constexpr double least_units = 1e-3;   // between surfaces that a ray meets
 
 }  // namespace
 

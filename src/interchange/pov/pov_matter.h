@@ -6,7 +6,9 @@
 
 namespace lfdsim::peers {
 
+/// Returns the material of what absorbs.
 inline std::string black() { return "texture { Black }"; }
+/// Returns the material of a face behind which the medium has this refractive index.
 inline std::string medium(double index) { return fmt::format("texture {{ Clear }} interior {{ ior {} }}", text(index)); }
 
 }  // namespace lfdsim::peers

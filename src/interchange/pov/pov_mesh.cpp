@@ -6,7 +6,7 @@
 namespace lfdsim::peers {
 namespace {
 
-// fmt writes each float with the fewest digits that read back as the same float.
+/// Appends a list of triples. fmt writes each float with the fewest digits that read back as the same float.
 template <class T>
 void add_list(std::string& text, const char* name, const std::vector<T>& all) {
     fmt::format_to(std::back_inserter(text), "  {} {{ {}", name, all.size() / 3);

@@ -6,7 +6,7 @@
 
 namespace lfdsim::peers {
 
-/// A mesh2 without the closing brace, so that a material can be added.
+/// Returns a mesh2 without the closing brace, so that a material can be added; `smooth`: with normals at the vertices.
 std::string pov_mesh(const Patch&, bool smooth);
 
 }  // namespace lfdsim::peers

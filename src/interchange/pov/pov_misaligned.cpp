@@ -10,18 +10,19 @@
 #include <array>
 #include <cmath>
 
-// A ray that has entered a lens knows that lens alone, and one that has left it knows no lens any more; but what POV-Ray's shapes
-// do cannot depend on where a ray has been. So they do what is right for every ray that can come to them:
+// In lfdsim a ray that has entered a lens meets that lens alone, and one that has left it meets no lens any more; but what
+// POV-Ray's shapes do cannot depend on where a ray has been. So they do what is right for every ray that can reach them:
 // - a lens's faces refract from above and are black from below, where only totally reflected light comes. The medium behind each is
 //   that of the perfect lens: for light that is in that medium already a neighbour's face does nothing;
 // - its wall is black from inside and not there from outside, where other lenses' light passes it;
 // - what no lens covers is a black sheet at a height at which all lenses have walls, so that light that enters any lens is above it
 //   and light that leaves any is below it. It follows the bow in steps;
-// - a black sleeve on the outside of a wall reaches from the sheet to the lens's rim, where a lens stands out of its neighbours.
+// - a black sleeve on the outside of a wall reaches from the sheet to the lens's rim, where a lens protrudes from its neighbours.
 // What they do is wrong only where lenses overlap, for light that enters one of them within the other's walls.
 namespace lfdsim::peers {
 namespace {
 
+/// Writes the lenses. `Column` k is the space over lens k's aperture, `Body` k the part of it between its faces.
 class Placed {
   public:
     Placed(const Display& d, const Geometry& g)
@@ -46,18 +47,18 @@ class Placed {
     }
 
   private:
-    // An object without its closing brace, in the array's frame.
+    /// Appends an object of the array's frame, given without its closing brace.
     static void add(std::string& text, const std::string& object) {
         if (!object.empty()) text += object + " transform { Place } no_reflection }\n";
     }
 
-    // Lenses that differ in place and turn alone are copies of one.
+    /// Returns lens k's faces, without the closing brace. Lenses that differ in place and tilt alone are copies of one.
     std::string lens(std::size_t k) const {
         const std::string shape = stands_.error(k).curvature == 0 ? "object { Lens" : faces(stands_.surfaces(k));
         return shape + " " + stands_.frame(k);
     }
 
-    // Without the closing brace.
+    /// Returns the faces of a lens, without the closing brace.
     std::string faces(const std::vector<PlacedSurface>& surfaces) const {
         std::string parts;
         for (const PlacedSurface& s : surfaces) {
@@ -69,7 +70,7 @@ class Placed {
         return "union {\n" + parts + " ";
     }
 
-    // Heights of the lowest rim and the highest, and the widest radius, in the lens's own frame.
+    /// The heights of the lowest rim and the highest, and the widest radius, in the lens's frame.
     struct Rims {
         double low = INFINITY, high = -INFINITY, radius = 0;
     };
@@ -86,7 +87,7 @@ class Placed {
     bool filled() const { return d_.array.aperture == Aperture::cell; }
     double reach() const { return stands_.cell().widest_half() + 2 * gap_mm_; }
 
-    // What is below the lens's rim or, where cells are filled, below its glass; and what is above it.
+    /// Returns the space below the lens's highest rim or, where cells are filled, below its glass, too; above_bottom() that above.
     std::string below_top(const std::vector<PlacedSurface>& surfaces) const {
         const std::string rim = fmt::format("plane {{ z, {} }}", text(rims(surfaces).high));
         if (!filled()) return rim;
@@ -100,7 +101,7 @@ class Placed {
                " }";
     }
 
-    // All within a lens's walls, in the array's frame.
+    /// Returns the space within a lens's walls, in the array's frame.
     std::string body(std::size_t k) const {
         const std::vector<PlacedSurface> surfaces = stands_.surfaces(k);
         return stands_.placed(k, fmt::format("intersection {{ {} {} {} }}", stands_.column(rims(surfaces).radius, 0),
@@ -109,7 +110,8 @@ class Placed {
 
     double radius() const { return d_.lens.is_thin() ? g_.surfaces.front().semi_aperture_mm : rims(g_.surfaces).radius; }
 
-    // Of lenses that fill their cells walls would lie in each other's planes: each is a little inside its own cell.
+    /// Returns lens k's wall. Walls of lenses that fill their cells would lie in each other's planes: each is a little inside its
+    /// cell.
     std::string wall(std::size_t k) const {
         const std::vector<PlacedSurface> surfaces = stands_.surfaces(k);
         const std::string sides =
@@ -127,6 +129,7 @@ class Placed {
                            sides, beside, seen, sides, others, seen, text(g_.surfaces.back().index_below));
     }
 
+    /// Returns the sleeve on the outside of lens k's wall, without the closing brace.
     std::string sleeve(std::size_t k) const {
         const std::vector<PlacedSurface> surfaces = stands_.surfaces(k);
         const std::string outer =
@@ -137,11 +140,11 @@ class Placed {
                            text(-middle(k)), k, others, black());
     }
 
-    // Of the heights that walls share.
+    /// Returns the middle of the heights that all walls share, at lens k.
     double middle(std::size_t k) const { return (walls_[0] + walls_[1]) / 2 + stands_.raised(k); }
 
-    // Within a quarter of the walls' height from their middle, to overlap with the neighbours' where a bow makes steps; if they
-    // have no height, flat.
+    /// Returns the black sheet over lens k's tile: as thick as half of the walls' common height, about its middle, to overlap with
+    /// that of neighbours where a bow makes steps; flat if there is almost no common height.
     std::string sheet(std::size_t k) const {
         std::vector<std::string> columns{fmt::format("Column{}", k)};
         for (const std::size_t m : stands_.near(k)) columns.push_back(fmt::format("Column{}", m));

@@ -7,10 +7,11 @@
 
 namespace lfdsim::peers {
 
-/// The array between the panel's layers and the camera; `Place` takes it from its own frame to the display's.
+/// Returns the array between the panel's layers and the camera; `Place` takes it from the array's frame to the display's.
 std::string pov_placed(const Display&, const Geometry&);
 
-/// Hits of a ray that passes such a lens, beyond those of a perfect one: on walls and faces of neighbours that do not concern it.
+/// Number of hits of a ray that passes such a lens, beyond those of a perfect one: on walls and faces of neighbours that do not
+/// concern it.
 inline constexpr int pov_passed_by = 16;
 
 }  // namespace lfdsim::peers

@@ -7,11 +7,12 @@
 #include "interchange/pov/pov_surface.h"
 
 // The sheet's glass is the slab between the perfect lenses' rims and the bodies under the caps together. Of each body the scene has
-// what stands out of the slab and of its neighbours, of the slab's faces what no body covers: one shape, whose parts share their
+// what protrudes from the slab and from its neighbours, of the slab's faces what no body covers: one shape, whose parts share their
 // medium, so that light enters and leaves it in turn.
 namespace lfdsim::peers {
 namespace {
 
+/// Writes the sheet. `Upper` k and `Lower` k are the bodies under lens k's caps.
 class PovMovedCaps {
   public:
     PovMovedCaps(const Display& d, const Geometry& g) : d_(d), g_(g), stands_(d, g) {}
@@ -41,10 +42,10 @@ class PovMovedCaps {
   private:
     std::string face(double z) const { return fmt::format("disc {{ {}, z, {} }}\n", vector(0, 0, z), text(100 * sheet_half(g_))); }
 
-    // Where the slab ends, at the perfect rim.
+    /// Returns the height at which the slab ends, that of the perfect rim.
     double slab_z(bool top) const { return rim_z(top ? g_.surfaces.back() : g_.surfaces.front()); }
 
-    // Glass from a cap as far into the slab and beyond as the column goes; without the closing brace.
+    /// Returns the body under a cap, as far into the slab and beyond as the column goes, without the closing brace.
     std::string glass(std::size_t k, bool top) const {
         const PlacedSurface own = top ? stands_.surfaces(k).back() : stands_.surfaces(k).front();
         const double reach = (d_.array.aperture == Aperture::cell ? stands_.cell().widest_half() : own.semi_aperture_mm) + 0.01;
@@ -56,6 +57,7 @@ class PovMovedCaps {
 
     static std::string name(std::size_t k, bool top) { return fmt::format("{}{}", top ? "Upper" : "Lower", k); }
 
+    /// Returns the faces of a body outside the slab and outside the bodies of near lenses.
     std::string cap(std::size_t k, bool top) const {
         std::string outside =
             top ? fmt::format("plane {{ -z, {} }}", text(-slab_z(top))) : fmt::format("plane {{ z, {} }}", text(slab_z(top)));
@@ -65,7 +67,7 @@ class PovMovedCaps {
 
     std::string bounds(std::size_t k) const { return "bounded_by { " + stands_.box(k) + " } "; }
 
-    // The slab's face over a tile; without the closing brace.
+    /// Returns the slab's face over lens k's tile, where no body covers it, without the closing brace.
     std::string flat(std::size_t k, bool top) const {
         std::vector<std::string> covered{name(k, top)};
         for (const std::size_t m : stands_.near(k)) covered.push_back(name(m, top));

@@ -7,7 +7,7 @@
 
 namespace lfdsim::peers {
 
-/// The array between the panel's layers and the camera; `Place` takes it from its own frame to the display's.
+/// Returns the array between the panel's layers and the camera; `Place` takes it from the array's frame to the display's.
 std::string pov_moved_caps(const Display&, const Geometry&);
 
 }  // namespace lfdsim::peers

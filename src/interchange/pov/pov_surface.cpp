@@ -12,12 +12,13 @@ namespace {
 
 constexpr double margin_mm = 1e-6;  // by which the clipping shape is larger than the surface
 
+/// Returns whether a surface has no aspheric terms.
 bool is_conic(const PlacedSurface& s) {
     return std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
 }
 
-// z minus the sag, as a formula of x, z and, unless the surface is a cylinder along y, y. Beyond `reach` the sag is constant, so
-// that the bound on the slope holds everywhere.
+/// Returns z minus the sag, as a formula of x, z and, unless the surface is a cylinder along y, y. Beyond `reach` the sag is
+/// constant, so that the bound on the slope holds everywhere.
 std::string height_above(const PlacedSurface& s, const PovCell& cell, double reach) {
     const std::string s2 = fmt::format("min({},{})", cell.strips() ? "x*x" : "x*x+y*y", text(reach * reach));
     std::string polynomial;
@@ -29,7 +30,8 @@ std::string height_above(const PlacedSurface& s, const PovCell& cell, double rea
                        polynomial);
 }
 
-// The largest gradient of height_above(): from differences of the sag between 1024 points, with a margin.
+/// Returns the largest gradient of height_above(), sqrt(1 + slope^2): from differences of the sag between 1024 points, with a
+/// margin.
 double steepest(const PlacedSurface& s, double reach) {
     constexpr int steps = 1024;
     double slope = 0, before = 0;
@@ -41,6 +43,8 @@ double steepest(const PlacedSurface& s, double reach) {
     return 1.05 * std::hypot(1, slope);
 }
 
+/// Returns the space above an asphere, or below it, in a box, without the closing brace. POV-Ray's isosurface is where its function
+/// is negative or 0.
 std::string isosurface(const PlacedSurface& s, const PovCell& cell, bool above, double wide, double low, double high) {
     const double reach = s.semi_aperture_mm + margin_mm, long_half = cell.strips() ? 1.1 * cell.half_length() : wide;
     const std::string height = height_above(s, cell, reach);
@@ -50,7 +54,7 @@ std::string isosurface(const PlacedSurface& s, const PovCell& cell, bool above, 
         text(steepest(s, reach)));
 }
 
-// Without the closing brace. A cylinder along y is longer than its strip.
+/// Returns a sphere through the vertex, of strips a cylinder along y that is longer than the strip, without the closing brace.
 std::string ball(const PlacedSurface& s, const PovCell& cell, bool open) {
     const double radius = 1 / s.curvature_per_mm, z = s.z_mm + radius, y = 1.1 * cell.half_length();
     if (cell.strips())
@@ -59,7 +63,8 @@ std::string ball(const PlacedSurface& s, const PovCell& cell, bool open) {
     return fmt::format("sphere {{ {}, {}", vector(0, 0, z), text(std::abs(radius)));
 }
 
-// c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0 from the vertex, of a cylinder along y without y^2
+/// Returns the quadric c (x^2 + y^2 + (1 + k) z^2) - 2 z = 0 from the vertex, of a cylinder along y without y^2, without the
+/// closing brace.
 std::string quadric(const PlacedSurface& s, const PovCell& cell) {
     const double c = s.curvature_per_mm;
     return fmt::format("quadric {{ {}, <0,0,0>, <0,0,-2>, 0 translate {}", vector(c, cell.strips() ? 0 : c, c * (1 + s.conic)),
