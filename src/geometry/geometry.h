@@ -13,8 +13,7 @@ namespace lfdsim {
 /// Form of a surface: a glass surface of revolution about the lens's axis, or the plane of an ideal thin lens.
 enum class SurfaceForm { revolution, thin };
 
-/// A surface with its position. The height of its points is z_mm plus the sag, sag_mm(). A thin lens has no sag, and air on both
-/// sides.
+/// A surface with its position: its points are at the heights z_mm + sag_mm(). A thin lens has no sag, and air on both sides.
 struct PlacedSurface {
     double z_mm;                       // of its vertex on the axis, from the panel
     double curvature_per_mm;           // c; negative: convex to the viewer

@@ -10,8 +10,7 @@ namespace lfdsim {
 /// "built".
 Geometry meant_geometry(const Display&, const Geometry& built);
 
-/// Returns the depth midway between those of the nearest and the furthest object, mm from the viewer-side vertex plane. There must
-/// be an object.
+/// Returns the depth midway between those of the nearest and the furthest of at least one object, mm from the vertex plane.
 double middle_z_mm(const std::vector<SceneObject>&);
 
 /// Returns whether there is a stop in the entrance plane: rays from the viewer's side then pass it before they meet the lens.

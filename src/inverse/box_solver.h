@@ -10,8 +10,7 @@ namespace lfdsim {
 /// Math. 15, 2015). Errors may be weighted: M and t then contain the square roots of the weights.
 class BoxSolver {
   public:
-    /// `bound` = M'(M 1); where it is 0 no ray ends, and x stays at the start. p_j = prior for all others. The arrays are of one
-    /// size.
+    /// `bound` = M'(M 1); where it is 0 no ray ends, and x stays at the start. p_j = prior for all others. Arrays are of one size.
     BoxSolver(std::vector<float> start, std::vector<float> centre, std::vector<float> bound, double prior);
 
     /// Returns the result of the last step.

@@ -23,8 +23,7 @@ std::vector<EyeBox> eye_boxes(const Display&);
 /// principal plane, a the panel's pixel pitch, g the gap. Of strips over subpixels it is a third of that.
 double view_step_mm(const Display&, const Geometry&, double z_mm);
 
-/// Returns the number of views that lie side by side along the longer sides of the boxes (of strips along x), added up; 0 of
-/// points.
+/// Returns the number of views side by side along the longer sides of the boxes (of strips along x), added up; 0 of points.
 double views_within(std::span<const EyeBox>, const Display&, const Geometry&);
 
 /// Returns eye places spread evenly over boxes by an additive recurrence with the powers of a generalised golden ratio (M. Roberts

@@ -32,8 +32,7 @@ struct Exposure {
 };
 
 /// Views, and the products of their rows with the panel's light x that a fit needs: the matrix M, the diagonal matrices V of the
-/// views' weights and U of those of their elements (docs/inverse.md, "What is minimised"). Rows are computed at each product, or
-/// kept.
+/// views' weights and U of those of their elements (docs/inverse.md, "What is minimised"). Rows are kept or computed anew.
 class FittedViews {
   public:
     /// Products of a cancelled job end soon, unfinished; it must outlive this.

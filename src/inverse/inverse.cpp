@@ -71,8 +71,7 @@ double crosstalk_of(const FittedViews& views, std::size_t in_boxes, std::size_t 
     return 0.5 * (leak[0] / signal[0] + leak[1] / signal[1]);
 }
 
-/// Returns the picture that a fit begins with: content.inverse.start, or traced content. Throws InputError if its size is not the
-/// panel's.
+/// Returns the picture that a fit begins with: content.inverse.start, or traced content. Throws InputError for another size.
 PanelVector start_of(const Request& request, const PanelVector& traced) {
     const std::string& file = request.keys().start;
     if (file.empty()) return traced;

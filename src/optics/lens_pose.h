@@ -71,8 +71,7 @@ struct CurvedSurface {
     }
 };
 
-/// Returns where a ray meets surface k of lenses whose curvature is multiplied by `factor`, in the frame and with the order of
-/// meet().
+/// Returns where a ray meets surface k of lenses whose curvature is multiplied by `factor`, as meet() does.
 template <Facts facts, class F>
 LFDSIM_FN Hit<F> meet_curved(const TracedDisplay<Scalar<F>>& display, int k, const Ray<F>& in_vertex_plane, F factor) {
     const Shape shape = shape_of<facts>(display, k);

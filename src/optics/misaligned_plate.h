@@ -45,8 +45,7 @@ struct MovedCaps {
         return z + F(surface.z) + pose.z;
     }
 
-    /// Returns whether a point is within the glass under the cap of a lens other than `but`. A point on the border of that glass is
-    /// not.
+    /// Returns whether a point is within the glass under the cap of a lens other than `but`, and not on its border.
     LFDSIM_RARE Mask<F> covered(bool top, Vec3<F> p, Cell<F> but, Mask<F> active) const {
         const auto& surface = face(top);
         const F sense = F(S(top ? 1 : -1));
@@ -62,8 +61,7 @@ struct MovedCaps {
         return under;
     }
 
-    /// Offers `best` the crossings, inwards or outwards, of the upright sides of the glass under a lens's cap, where that is higher
-    /// than the slab.
+    /// Offers `best` the crossings, inwards or outwards, of the upright sides of the glass under a lens's cap, beyond the slab.
     LFDSIM_FN void sides(bool top, bool inwards, const GlassRays<F>& rays, Cell<F> lens, const LensPose<F>& pose, Mask<F> active,
                          Crossing<F>& best) const {
         const auto& surface = face(top);

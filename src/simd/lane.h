@@ -187,8 +187,7 @@ LFDSIM_FN void store(U a, std::uint32_t* to) {
     __builtin_memcpy(to, &a, sizeof a);
 }
 
-/// Reads a row of four numbers for each lane l, number row[l] of the rows that begin at `from`; to[k] receives the k-th of each
-/// row.
+/// Reads a row of four numbers for each lane l, number row[l] of those that begin at `from`; to[k] receives the k-th of each.
 template <class F>
 LFDSIM_FN void load_rows(const Scalar<F>* from, const std::uint32_t* row, F (&to)[4]) {
     LaneTraits<F>::load_rows(from, row, to);

@@ -118,8 +118,7 @@ struct LaneTraits<Lane<N>> {
         constexpr int from[4] = {of...};
         return __builtin_shufflevector(a, b, (from[lane % 4] % 4 + lane / 4 * 4 + from[lane % 4] / 4 * N)...);
     }
-    /// Returns a register in which each block of four lanes takes the numbers `of` from the same block of a (0 to 3) and b (4 to
-    /// 7).
+    /// Returns a register whose blocks of four lanes take the numbers `of` from the same block of a (0 to 3) and b (4 to 7).
     template <int... of, class V>
     static LFDSIM_FN V quarters(V a, V b) {
         if constexpr (N == 4) return shuffled<of...>(a, b, Numbers<0, 1, 2, 3>());

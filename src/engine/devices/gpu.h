@@ -21,8 +21,7 @@ namespace lfdsim {
 /// The result of the first cuda::find(), which takes a while.
 const cuda::GpuSearch& found_gpus();
 
-/// Returns why the CPU has done a GPU's work in this process so far: the first reason for each GPU, with its name; empty if it has
-/// not.
+/// Returns why the CPU has done GPUs' work in this process so far: the first reason for each GPU, with its name; empty: it has not.
 std::vector<std::string> gpus_given_up();
 
 /// What a GPU has done for a picture.

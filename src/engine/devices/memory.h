@@ -21,8 +21,7 @@ double texel_bytes(const Display&);
 /// Throws InputError, with both figures, if `what` needs more bytes than are free; `where` names the key or option to change.
 void require_memory(const std::string& where, const std::string& what, double bytes);
 
-/// Returns the bytes for a panel image that is made, not read: the picture and its texels exist at the same time while it is
-/// converted.
+/// Returns the bytes for a panel image that is made, not read: while it is converted, picture and texels exist at the same time.
 double making_panel_bytes(const Display&);
 /// Returns what needs that memory, for the message of require_memory().
 std::string making_panel_text(const Display&);

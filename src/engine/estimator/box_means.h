@@ -150,8 +150,7 @@ struct CutSide {
     LFDSIM_FN F from(F piece) const { return start + piece * step; }
 };
 
-/// Adds the light of boxes of any size: in one piece if they have at most SummedImage::most_pixels, beyond which sums would not be
-/// exact.
+/// Adds the light of boxes of any size, in pieces of at most SummedImage::most_pixels, for which sums are exact.
 template <class F>
 LFDSIM_FN void add_large_boxes(const SummedImage& image, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Light<F>& light) {
     using S = Scalar<F>;

@@ -102,8 +102,8 @@ class Pieces {
                                                      by_other * (spreads.moved_by_other(b) - spreads.moved_by_other(a)),
                                                  max(share, F(S(1e-6))));
         // Twelve times the variances of what lies in the piece: of t + h, along it, and of t and h, taken as those of uniform
-        // spreads cut to the piece. Across, var(s1 t + s2 h) = (s1 - s2)(s1 var t - s2 var h) + s1 s2 var(t + h), with the slopes
-        // s1 and s2.
+        // spreads cut to the piece. Across, with the slopes s1 and s2 of the two spreads,
+        //     var(s1 t + s2 h) = (s1 - s2) (s1 var t - s2 var h) + s1 s2 var(t + h).
         const F reach = half * sqrt(one2 + other2), length = max(min(b, reach) - max(a, -reach), zero), in2 = length * length,
                 moved2 = min(one2, in2 + other2), moved_by_other2 = min(other2, in2 + one2);
         aside = sqrt(max((by_one - by_other) * (by_one * moved2 - by_other * moved_by_other2) + by_one * by_other * in2, zero));

@@ -59,8 +59,7 @@ struct PlaneSide {
         const F whole = floor(place);
         return whole + min(max((place - whole - F(part.from[axis])) * F(part.per[axis]), F(0)), F(1));
     }
-    /// Returns the integral of light_before() from 0: over whole cells, cell k having k + 1 - (from + to)/2, and over a part of
-    /// one.
+    /// Returns the integral of light_before() from 0: over whole cells, each k + 1 - (from + to)/2, and over a part of the last.
     LFDSIM_FN static F sum_before(const SubpixelPart<Scalar<F>>& part, int axis, F place) {
         using S = Scalar<F>;
         const F half = F(S(0.5)), whole = floor(place), in = place - whole, from = F(part.from[axis]), to = F(part.to[axis]),
@@ -90,8 +89,7 @@ LFDSIM_FN void add_part(const PanelLight& panel, PanelBase<Scalar<F>> base, cons
     light.add(of_part, part.channel);
 }
 
-/// Adds the mean over boxes of a panel with subpixels, the sum over its parts. to_cumulative_light(side, part, axis) maps the
-/// sides.
+/// Adds the mean over boxes of a panel with subpixels: a sum over parts. to_cumulative_light(side, part, axis) maps the sides.
 template <class F, class Squeeze>
 LFDSIM_FN void add_subpixels(const PanelLight& panel, const PanelBase<Scalar<F>>& base, const Boxes<F>& box, Light<F>& light,
                              Squeeze to_cumulative_light) {

@@ -295,8 +295,7 @@ struct ProbeBoxes {
         }
     }
 
-    /// Looks up the light of each box, moved by (column, row), times its weight: R, G, B and 1 if the probe lies in the part, else
-    /// 0.
+    /// Looks up the light of each box, moved by (column, row), times its weight: R, G, B and Probes::in.
     template <class F>
     LFDSIM_FN void look(const Probes<S>& probes, const PanelLight& panel, const PanelBase<S>& base, S column, S row,
                         S (&light)[most_probes][4]) const {

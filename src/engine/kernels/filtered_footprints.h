@@ -209,8 +209,7 @@ class FootprintMaker {
         b.height = optics::sqrt(optics::max(height, S(0)));
     }
 
-    /// Returns the ends of the domain of a pixel at (dx, dy) of the block, -1 .. 1, along axis a, from the axis of a stratum's
-    /// lens, mm.
+    /// Returns the ends of the domain of a pixel at (dx, dy) of the block, -1 .. 1, along axis a, mm from a stratum's lens axis.
     StratumRange ends_of(int a, int stratum, S dx, S dy) const {
         const S start = axis[a].first.at(dx, dy), end = axis[a].last.at(dx, dy), at = axis[a].stratum[stratum].axis;
         return {optics::min(start, end) - at, optics::max(start, end) - at};

@@ -70,8 +70,7 @@ class LensDomain {
         return map;
     }
 
-    /// Returns half the size, along x' and y', of the image in the plane of the holes of the square [-width, width]^2 of the
-    /// domain.
+    /// Returns half the size, along x' and y', of the image of the domain's square [-width, width]^2 in the plane of the holes.
     template <class G>
     LFDSIM_FN static optics::Vec2<G> reach_of(const DomainMap<G>& map, G width) {
         return {width * (optics::abs(map.x_u) + optics::abs(map.x_v)), width * (optics::abs(map.y_u) + optics::abs(map.y_v))};

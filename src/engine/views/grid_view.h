@@ -5,9 +5,8 @@
 
 namespace lfdsim {
 
-/// A display's camera at the position of one of a grid's (docs/model.md, "Grids of views"). An off-axis frustum is a part of the
-/// picture of a camera that looks straight at the panel: its pixels are half as large as the view's, and the focus covers a part of
-/// it.
+/// A display's camera at the position of one of a grid's (docs/model.md, "Grids of views"). Its off-axis frustum is a part of the
+/// picture of a camera that looks straight at the panel, with pixels half as large as the view's.
 struct GridCamera {
     Display display;             // with that camera
     Rect crop;                   // the whole pixels that cover the focus

@@ -18,8 +18,7 @@ class PanelRays {
 
     /// Returns the number of rays of each pixel.
     int samples() const { return int(samples_); }
-    /// Sets `rays` to the rays of the pixels of `part` of the camera's frame, row by row, samples() rays a pixel one after the
-    /// other.
+    /// Sets `rays` to the rays of the pixels of `part` of the camera's frame, row by row, for each pixel samples() rays.
     void trace(const Rect& part, std::vector<PanelRay>& rays) const;
 
   private:

@@ -41,8 +41,7 @@ LFDSIM_FN Pixel pixel_of_square(std::uint32_t number) {
     return {((part & 1) << 3) + (within & 7), (part >> 1 << 2) + (within >> 3)};
 }
 
-/// Returns where the light of the frame's pixel (x, y), in a square, is written; nullptr: it is not needed, as it lies outside the
-/// tile.
+/// Returns where the light of the frame's pixel (x, y), in a square, is written; nullptr if the pixel lies outside the tile.
 LFDSIM_FN float* output(const Frame& frame, std::uint32_t square, std::int32_t x, std::int32_t y) {
     const Tile& tile = frame.tile;
     const bool wanted = x >= tile.x0 && x < tile.x1 && y >= tile.y0 && y < tile.y1;

@@ -40,8 +40,8 @@ class Outline {
           round_(array.aperture == Aperture::circle),
           reach_(round_ ? radius_ : std::min(radius_, outer_radius_mm(array))),
           sides_(sides) {}
-    /// Returns the point at this share of the way round, counter-clockwise. A cell's outline begins in a corner; each side has an
-    /// equal share.
+    /// Returns the point at this share of the way round, counter-clockwise. A cell's outline begins in a corner; its sides have
+    /// equal shares.
     std::array<double, 2> point(double share) const {
         if (round_) {
             const double angle = 2 * pi * share;
@@ -135,7 +135,7 @@ class Builder {
         return slats(across);
     }
 
-    /// Returns the number of triangles of such a mesh; exact except for walls of lenses that fill their cells, whose rims touch in
+    /// Returns the number of triangles of such a mesh; exact but for walls of lenses that fill their cells, whose rims touch in
     /// parts.
     double count(Grid grid) const {
         double sum = 0;
@@ -271,8 +271,7 @@ class Builder {
         }
     }
 
-    /// Returns the normal at corner i of a quadrilateral of a wall, lower edge first: a round wall is a cone, that of a cell has
-    /// flat sides.
+    /// Returns the normal at corner i of a wall's quadrilateral, lower edge first: a round wall is a cone, a cell's has flat sides.
     Vec3d wall_normal(const Vec3d (&at)[4], int i) const {
         Vec3d n;
         if (array_.aperture == Aperture::circle && !is_strips(array_)) {

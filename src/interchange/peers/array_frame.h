@@ -5,8 +5,7 @@
 
 namespace lfdsim::peers {
 
-/// The place of the array: a point p of its frame, x' and y' from its middle, z from the panel, is at turn p + shift_mm of the
-/// display's.
+/// The place of the array: a point p of its frame, from its middle and the panel, is at turn p + shift_mm in the display's.
 struct ArrayFrame {
     double turn[3][3], shift_mm[3];
 };

@@ -213,8 +213,7 @@ class ArrayBuilder {
         }
     }
 
-    /// Adds surface k: a plane as one face for all lenses, except in `clear`; else in each cell, in a plate with the flat part
-    /// around it.
+    /// Adds surface k: a plane as one face for all lenses, except in `clear`; else in each cell, of a plate with the flat part.
     void add_surface(std::size_t k) {
         const PlacedSurface& s = geometry_.surfaces[k];
         const bool clear = display_.array.surround == Surround::clear, down = s.index_below == 1;

@@ -50,8 +50,7 @@ struct PeerScene {
 /// Returns the program's name.
 std::string_view name_of(Peer);
 
-/// Returns everything in a display that cannot be expressed for that program, each with the key and the remedy; nothing if all can
-/// be.
+/// Returns everything in a display that cannot be expressed for that program, each with the key and the remedy.
 std::vector<Problem> not_expressed(Peer, const Display&, const Geometry&, const PeerOptions&);
 
 /// Returns the display as a scene, except for the panel image. Throws InputError with the problems of not_expressed().

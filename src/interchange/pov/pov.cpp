@@ -114,8 +114,7 @@ class PovWriter {
             file, vector(w, h, 1), vector(-w / 2, -h / 2, 0), text(units_per_mm_), flag());
     }
 
-    /// Returns the layers' upper faces, except where a lens's glued face is the top layer's. The interior texture is that from
-    /// below.
+    /// Returns the layers' upper faces, except where a lens's glued face is the top layer's. interior_texture is that from below.
     std::string layers() const {
         std::string all;
         double z = g_.layers_top_mm;
@@ -150,8 +149,7 @@ class PovWriter {
                            text(100 * sheet_half(g_)), vector(-x, -y, z - 1), vector(x, y, z + 1), matter);
     }
 
-    /// Returns the places in the box about all cells that no cell of staggered rows covers: cells without lenses, cut off at the
-    /// box.
+    /// Returns the places in the box about all cells that no cell of staggered rows covers: cells without lenses, cut at the box.
     std::string between(const std::string& flats) const {
         if (!lattice_.staggered || flats.empty()) return "";
         const auto [x, y] = array_half(d_, g_);

@@ -63,8 +63,7 @@ std::vector<PovCell::PrismSide> PovCell::sides() const {
         all.push_back({{-x, -y}, {x, -y}, {0, -py}, bottom});
         return all;
     }
-    // Odd rows are shifted to the right: their right neighbours above and below have the next number, those of even rows the same
-    // one.
+    // Odd rows are shifted to the right: their right neighbours above and below have the next number, of even rows the same.
     const std::string no_right = fmt::format("I + mod(J, 2) > {}", last(0)), no_left = "I + mod(J, 2) < 1";
     double side_y = y;  // where the sides to left and right end: a hexagon's corners are up and down
     if (lattice_.hexagonal) {

@@ -110,8 +110,8 @@ class Placed {
 
     double radius() const { return d_.lens.is_thin() ? g_.surfaces.front().semi_aperture_mm : rims(g_.surfaces).radius; }
 
-    /// Returns lens k's wall. Walls of lenses that fill their cells would lie in each other's planes: each is a little inside its
-    /// cell.
+    /// Returns lens k's wall. Of lenses that fill their cells it is a little inside the cell, as walls would lie in each other's
+    /// planes.
     std::string wall(std::size_t k) const {
         const std::vector<PlacedSurface> surfaces = stands_.surfaces(k);
         const std::string sides =

@@ -30,8 +30,7 @@ std::string height_above(const PlacedSurface& s, const PovCell& cell, double rea
                        polynomial);
 }
 
-/// Returns the largest gradient of height_above(), sqrt(1 + slope^2): from differences of the sag between 1024 points, with a
-/// margin.
+/// Returns the largest gradient of height_above(), sqrt(1 + slope^2), from 1024 differences of the sag, with a margin.
 double steepest(const PlacedSurface& s, double reach) {
     constexpr int steps = 1024;
     double slope = 0, before = 0;
