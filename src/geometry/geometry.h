@@ -75,7 +75,7 @@ struct Geometry {
 struct AxisTheory {
     double fov_deg;                    // 2 atan(p / 2g)
     double fov_exact_deg;              // of the ray from p'/2 to the axis at the principal point, by Snell; NaN for glass lenses
-    double fov_elemental_deg;          // 2 atan(p' / 2g), p' the elemental images' pitch: what is seen through their whole width
+    double fov_elemental_deg;          // 2 atan(p' / 2g), p' the elemental pitch: field of view of whole elemental images
     double views;                      // N = p / a, of strips along a row of the panel p / (a cos(slant))
     double view_step_deg;              // FOV / N
     double viewing_zone_parallel_deg;  // whole screen, with elemental images of the pitch p

@@ -41,8 +41,8 @@ SharpRange sharp_by_lens(const Display&, const Geometry&, const Theory&, double 
 /// to infinity and from 90 mm in front of the lenses to the viewer"; "no depth up to the viewer" for none.
 std::string depths_in_words(const Geometry&, const SharpRange&, double eye_mm);
 
-/// Returns the limit of resolution by the lens pitch at a depth, cycles per mm in that plane: half a cycle per lens pitch, E/(2 p
-/// (E - z)), seen from the eye's distance `eye_mm` from the panel.
+/// Returns the limit of resolution by the lens pitch at a depth z, cycles per mm in that plane: half a cycle per lens pitch,
+/// projected from the eye, E/(2 p (E - z)), E its distance from the vertex plane; `eye_mm` is that from the panel.
 double lens_limit_per_mm(const Geometry&, const Theory&, double depth_mm, double eye_mm);
 /// Returns the limit of resolution by the panel pixels at a depth, cycles per mm: half a cycle per image of a pixel, g/(2 a |z|).
 double pixel_limit_per_mm(const Display&, const Geometry&, double depth_mm);

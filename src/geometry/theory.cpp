@@ -28,7 +28,7 @@ double exact_angle_deg(const Geometry& g, double width_mm) {
         if (middle <= low || middle >= high) break;
         (half_width(middle) < width_mm / 2 ? low : high) = middle;
     }
-    return 2 * std::asin(high) / degree;  // 180 where the whole half space does not reach so far
+    return 2 * std::asin(high) / degree;  // 180 if even the steepest rays do not reach the ends
 }
 
 /// Returns the figures along an axis of the array; L is the central depth, mm.

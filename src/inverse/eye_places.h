@@ -1,4 +1,4 @@
-// Where the eyes are whose views are fitted, and the cameras that stand for them. Floor 3, public as a part of inverse.h.
+// Where the eyes are whose views are fitted, and the cameras that represent them. Floor 3, public as a part of inverse.h.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"

@@ -42,7 +42,7 @@ struct WhiteLight {
     }
 };
 
-/// How many elements of a view lie across a lens pitch.
+/// Returns how many elements of a view lie across a lens pitch, rounded up.
 int elements_across_lens(const Display& seen, const Geometry& geometry) {
     const double pitch = is_strips(seen.array) ? seen.array.pitch_mm[0] : std::max(seen.array.pitch_mm[0], seen.array.pitch_mm[1]);
     return int(std::ceil(std::min(pitch / geometry.frame_width_mm, 1.) * double(seen.camera.resolution[0])));

@@ -17,7 +17,7 @@ using PanelVector = std::vector<float>;
 struct View {
     ViewRows rows;
     float weight;                      // of its errors
-    Image content;                     // what it should see, in the content's own light
+    Image content;                     // what it should see, in the content's light: s, not yet the exposure's t
     Image white;                       // what it sees of a white panel
     int elements_per_lens = 1;         // across a lens pitch
     std::vector<float> expected = {};  // of each element the share of the gain that it can show: 1, less where it lies partly
@@ -35,7 +35,7 @@ struct Exposure {
 /// views' weights and U of those of their elements (docs/inverse.md, "What is minimised"). Rows are kept or computed anew.
 class FittedViews {
   public:
-    /// Products of a cancelled job end soon, unfinished; it must outlive this.
+    /// The job must outlive this object; where it is cancelled, products end soon, unfinished.
     FittedViews(std::vector<View>, bool entries_are_pixels, bool errors_of_codes, Exposure, const Job&);
 
     const std::vector<View>& views() const { return views_; }

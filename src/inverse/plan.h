@@ -39,7 +39,7 @@ struct Eye {
 /// Returns eyes at these places, with numbers from `first` on.
 std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight);
 
-/// Returns the display with the camera that stands for an eye, and `rays` for each element of its view. Throws InputError for a
+/// Returns the display with the camera that represents an eye, and `rays` for each element of its view. Throws InputError for a
 /// place from which the display cannot be seen.
 Display display_of(const Request&, const Display&, const Geometry&, const Eye&, std::int64_t rays);
 

@@ -1,6 +1,6 @@
-// What the tracer knows of a display while it is compiled. Floor 1.
+// Facts about a display that are constants where the tracer is compiled. Floor 1.
 //
-// The tracer is written once, for any display. A copy of it for displays of which something is known asks less: the one for the
+// The tracer is written once, for any display. A copy of it for displays of which something is known tests less: the one for the
 // 2019 paper's lens has no Newton iteration, no stop and no layers. `Specialisations` lists the copies, and a display takes the
 // first whose facts hold. All copies compute the same bits, so a row more or less changes speed and size alone.
 #pragma once
@@ -23,7 +23,7 @@ struct Facts {
     Known on_air = Known::ask;        // air is between the lenses and a bare panel
     Known plain_light = Known::ask;   // has_plain_light()
     Known schlick = Known::ask;       // Fresnel's equations by Schlick's approximation
-    Known meshed = Known::no;         // triangles represent the surfaces (src/interchange/meshed); no display says so itself
+    Known meshed = Known::no;         // triangles represent the surfaces (src/interchange/meshed); no display has this by itself
 
     bool operator==(const Facts&) const = default;
     /// Returns these facts and one more, which holds.
@@ -42,8 +42,8 @@ LFDSIM_FN constexpr bool holds(bool asked) {
     return known == Known::ask ? asked : known == Known::yes;
 }
 
-/// Whether light is what it is on most displays and cameras: a pinhole camera through pixels' centres, a box diffuser above the
-/// lenses, pixels that shine all over and in all directions alike, round lenses along the panel's axes.
+/// Returns whether light is what it is on most displays and cameras: a pinhole camera through pixels' centres, a box diffuser above
+/// the lenses, pixels that emit over their whole area and in all directions alike, round lenses along the panel's axes.
 template <class S>
 LFDSIM_FN bool has_plain_light(const TracedDisplay<S>& display) {
     return !display.box_filter && !display.thin_lens && display.has_diffuser && display.start_above != S(0) && !display.rotated &&
@@ -51,21 +51,21 @@ LFDSIM_FN bool has_plain_light(const TracedDisplay<S>& display) {
            display.aperture == Aperture::circle;
 }
 
-/// Whether the lens is a spherical cap over a plane face, convex to the viewer and without a stop.
+/// Returns whether the lens is a spherical cap over a plane face, convex to the viewer and without a stop.
 template <class S>
 LFDSIM_FN bool is_plano_convex(const TracedDisplay<S>& display) {
     return !display.ideal && display.surface_count == 2 && display.surface[0].shape == Shape::sphere &&
            display.surface[1].shape == Shape::plane && !display.has_stop && !display.concave_front;
 }
 
-/// Whether light reaches the panel between lenses, too: the surround is `clear` or `plate`, which ideal lenses do not have.
+/// Returns whether light reaches the panel between lenses, too: the surround is `clear` or `plate`, which ideal lenses do not have.
 template <class S>
 LFDSIM_FN bool is_lit_between(const TracedDisplay<S>& display) {
     return !display.ideal && display.surround != Surround::opaque;
 }
 
 /// Returns whether all that is known holds for a display: whether a copy of the tracer compiled with these facts may trace it.
-/// `meshed` is not tested, as no display says it.
+/// `meshed` is not tested, as no TracedDisplay contains it.
 template <Facts facts, class S>
 LFDSIM_FN bool hold(const TracedDisplay<S>& display) {
     const auto agrees = [](Known known, bool answer) { return known == Known::ask || answer == (known == Known::yes); };
@@ -107,7 +107,7 @@ struct Specialisations {
     // clang-format on
     static constexpr int count = sizeof row / sizeof row[0];
 
-    /// The number of a row, counted from 0, for CUDA, whose kernels take no template arguments of class type.
+    /// Returns the number of a row, counted from 0, for CUDA, whose kernels take no template arguments of class type.
     template <Facts facts>
     static constexpr int number_of() {
         int number = 0;

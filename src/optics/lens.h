@@ -155,7 +155,7 @@ LFDSIM_FN Vec2<F> bend(const TracedDisplay<Scalar<F>>& display, Vec2<F> q, Vec2<
 }
 
 /// Traces a ray through one lens. `entering` is the ray in the vertex plane of the first surface, in the frame of `rules`; `hit` is
-/// where it meets the first surface, relative to the lens's own axis. Afterwards passage.ray is on the last surface, relative to
+/// where it meets the first surface, relative to the axis of that lens. Afterwards passage.ray is on the last surface, relative to
 /// that axis and the surface's vertex. A ray that ends inside the lens has passage.alive cleared. `rules` supplies what differs
 /// between callers:
 ///   axis()                                   returns the lens's axis, in the frame in which stops are counted;

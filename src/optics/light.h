@@ -33,7 +33,7 @@ struct SubpixelLight {
     Scalar<F> lane[LaneTraits<F>::width][4];
 
     LFDSIM_FN SubpixelLight(const float* texels, const Fetch<F>& fetch) {
-        // Through arrays of its own, so that the Fetch of panels without subpixels stays in registers.
+        // It goes through separate arrays, so that the Fetch of panels without subpixels stays in registers.
         std::uint32_t code[LaneTraits<F>::width];
         Scalar<F> weight[LaneTraits<F>::width];
         store(fetch.place >> Fetch<F>::shift, code);

@@ -1,8 +1,9 @@
-// Misaligned arrays: each lens has a pose of its own, and the array as a whole may not be parallel to the panel. Opaque
+// Misaligned arrays: each lens has a different pose, and the array as a whole may not be parallel to the panel. Opaque
 // surrounds, ideal lenses and pinholes. docs/model.md, "Errors". Floor 1.
 //
-// Three frames: the array's turned about z alone, in which the camera's rays come and go, from the base lens's vertex (x, y) and
-// the panel (z); the array's own, from that vertex too; and the lens's own, from its viewer-side vertex, as lens.h has it.
+// There are three frames: the one turned about z alone, in which rays come from the camera and go to the panel, from the base
+// lens's vertex (x, y) and the panel (z); the array's, from that vertex and the vertex plane; and the lens's, from its axis and, as
+// in lens.h, the vertex of the present surface.
 #pragma once
 #include "optics/clear_surround.h"
 #include "optics/lens_pose.h"

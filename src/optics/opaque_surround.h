@@ -32,7 +32,7 @@ LFDSIM_FN Mask<F> passes_two_cells(const TracedDisplay<Scalar<F>>& display, Cell
     // Across one border. (A line between neighbours in a comb may cut a third cell, but not its lens.)
     if (!lattice.staggered) return abs(last.i - first.i) + abs(last.j - first.j) <= F(S(1.5));
     if (!lattice.hexagonal) return F(0) > F(1);
-    // The axes of neighbours are a pitch apart, and those of the two lenses beside both stand sqrt(3)/2 pitches off the line
+    // The axes of neighbours are a pitch apart, and those of the two lenses beside both are sqrt(3)/2 pitches off the line
     // through them: farther from the path than the lenses are wide, where neither of its ends is far off that line.
     const S pitch = lattice.pitch[0], far = S(0.866) * pitch - display.surface[0].semi_aperture;
     const Vec2<F> from = axis_of(lattice, first), to = axis_of(lattice, last);
@@ -42,8 +42,9 @@ LFDSIM_FN Mask<F> passes_two_cells(const TracedDisplay<Scalar<F>>& display, Cell
     return (dx * dx + dy * dy <= F(S(1.1) * pitch * pitch)) && (max(abs(start), abs(end)) <= F(pitch * far));
 }
 
-/// The rays of `astray` miss the cap of the cell they point at: finds the cap of another cell, if any, that they meet before they
-/// are down at the rims, and writes hit and cell of those that do. (x, y): where they enter the zone of the caps, zone_bottom <= z
+/// Finds the cap of another cell, if any, that the rays of `astray` meet before they are down at the rims, and writes hit and cell
+/// of those that do; these rays miss the cap of the cell they point at. (x, y): where they enter the zone of the caps, zone_bottom
+/// <= z
 /// <= zone_top, from the base lens's axis; m = -d(x, y)/dz, the lateral displacement per mm of descent.
 template <Facts facts, class F>
 LFDSIM_RARE void meet_neighbours(const TracedDisplay<Scalar<F>>& display, const Extent<Scalar<F>>& extent, const Ray<F>& ray, F x,

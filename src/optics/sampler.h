@@ -10,7 +10,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-/// Well-mixed bits (the finaliser "lowbias32" by C. Wellons).
+/// Returns well-mixed bits (the finaliser "lowbias32" by C. Wellons).
 template <class U>
 LFDSIM_FN U mix(U h) {
     h = h ^ (h >> 16);

@@ -34,7 +34,7 @@ struct Hit {
 // A surface is a SurfaceData, or one whose curvature differs from lane to lane (misaligned.h).
 
 /// Computes the sag z, mm, and the slope at s2 = x^2 + y^2 of the sheet that contains the vertex: z = c s^2/(1 + sqrt(1 - (1 + k)
-/// c^2 s^2)) + a4 s^4 + a6 s^6 + ... (docs/model.md, "Lenses"). `real`: the sheet extends so far. d = 2 dz/d(s^2), so that the
+/// c^2 s^2)) + a4 s^4 + a6 s^6 + ... (docs/model.md, "Lenses"). `real`: the sheet extends as far as s. d = 2 dz/d(s^2), so that the
 /// normal is along (-x d, -y d, 1).
 template <class F, class Surface>
 LFDSIM_FN void sag(const Surface& surface, F s2, F& z, F& d, Mask<F>& real) {
@@ -105,7 +105,7 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     F z, d;
     Mask<F> real = disc > F(0);
     Vec3<F> p{};
-    // Moves p to the path length `at`, and z and d to the sag and slope there; returns whether the sheet extends so far.
+    // Moves p to the path length `at`, and z and d to the sag and slope there; returns whether the sheet extends as far as there.
     auto pose = [&](F at) {
         p = {ray.at.x + ray.to.x * at, ray.at.y + ray.to.y * at, ray.to.z * at};
         Mask<F> sheet;

@@ -84,7 +84,7 @@ struct MisalignedArray {
     S vertex_z;                     // height of the viewer-side vertex plane above the panel, in the array's middle
     S wedge[3][3];                  // from the array's frame to that turned about z alone
     S overhang;                     // the most by which a lens protrudes from its cell; negative: all end that far inside
-    S radius;                       // of a circle about a lens's lattice position that contains the lens, seen from above
+    S radius;                       // of a circle about a lens's lattice position that contains the lens, in a view from above
     S lowest, highest;              // of the heights of vertices over their lattice positions; lowest <= 0 <= highest
     S search_top, search_bottom;    // highest and lowest z from the vertex plane at which rays meet first surfaces
 };

@@ -17,7 +17,7 @@ inline unsigned thread_blocks(std::int64_t items) { return unsigned((items + thr
 /// The kernels of a sampler, Sobol's or random points: one for each row of optics::Specialisations.
 template <bool sobol>
 struct PointKernels {
-    /// Starts the kernel of the frame's display for `items` > 0 items; cudaGetLastError() tells whether it could.
+    /// Starts the kernel of the frame's display for `items` > 0 items; cudaGetLastError() returns whether it could.
     static void start(const wide::Frame& frame, std::int64_t items, cudaStream_t stream);
     /// Raises `most` to the bytes of local memory per thread of the kernel that takes most of them.
     static cudaError_t raise_to_local_bytes(std::size_t& most);

@@ -18,7 +18,7 @@
 
 namespace lfdsim {
 
-/// The result of the first cuda::find(), which takes a while.
+/// Returns the result of the first cuda::find(), which takes a while.
 const cuda::GpuSearch& found_gpus();
 
 /// Returns why the CPU has done GPUs' work in this process so far: the first reason for each GPU, with its name; empty: it has not.

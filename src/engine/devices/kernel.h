@@ -46,8 +46,9 @@ constexpr int max_strata = 64;  // most rows or columns of strata, those added a
 constexpr int more_strata = 2;  // most rows or columns that are added at borders of lenses
 constexpr int few_strata = 8;   // up to this number along an axis the filtered estimator prefers speed, above it accuracy
 
-/// Memory for what a block of the filtered estimator works on, some megabytes, which is too much for a thread's stack. It belongs
-/// to the calling thread, until that ends, and is not cleared; the next call returns the same. Throws std::bad_alloc.
+/// Returns memory for what a block of the filtered estimator works on, some megabytes, which is too much for a thread's stack. It
+/// belongs to the calling thread, until that ends, is aligned to 64 bytes and not cleared; the next call returns the same, or a
+/// larger one if it needs more. Throws std::bad_alloc.
 void* block_memory(std::size_t bytes);
 
 /// A function that renders a tile on the calling thread. All kernels give the same bits.

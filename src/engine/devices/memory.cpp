@@ -13,7 +13,7 @@
 namespace lfdsim {
 namespace {
 
-/// Memory for what is not counted: threads' stacks, buffers of files, the program's own tables.
+/// Memory for what is not counted: threads' stacks, buffers of files, the program's tables.
 constexpr double spare_bytes = 64e6;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what, double bytes, const std::string& whose, double free) {

@@ -28,7 +28,7 @@ std::ptrdiff_t tasks() {
 void wait_for_release(std::ptrdiff_t before) {
     using namespace std::chrono_literals;
     for (int k = 0; k < 100 && tasks() > before; ++k) std::this_thread::sleep_for(1ms);
-    std::this_thread::sleep_for(2ms);  // groups of processes are told a little later
+    std::this_thread::sleep_for(2ms);  // the count of a group of processes falls a little later
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace lfdsim {
 /// because limits on processes, groups of processes and address space all count.
 int threads_to_be_had(int wanted);
 
-/// Limits work to as many threads as there can be: libraries wait for ever, or give up, for one that the system refuses. Where
+/// Limits work to as many threads as there can be: libraries wait without end, or give up, for one that the system refuses. Where
 /// there are enough nothing changes; where there are none the calling thread does all the work.
 void use_only_threads_to_be_had();
 

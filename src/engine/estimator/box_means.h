@@ -57,7 +57,7 @@ struct LongSide {
     F in_first, in_middle, in_last;
     Mask<F> there;  // numbers are those of pixels of the image
 
-    /// The side from `start` to `end`, pixels from the pixel `base` of `count`, cut off at the image's ends.
+    /// Takes the side from `start` to `end`, pixels from the pixel `base` of `count`, cut off at the image's ends.
     LFDSIM_FN LongSide(std::uint32_t base, std::uint32_t count, F start, F end) {
         using S = Scalar<F>;
         const F one = F(1), low = F(0) - F(S(std::int32_t(base))), high = F(S(std::int32_t(count - base)));
@@ -134,7 +134,7 @@ struct CutSide {
     F start, step, size, count,
         share;  // of the first; from piece to piece; a piece's size; their number; each one's share of the side
 
-    /// About `middle`, pixels from the pixel `base` of `pixels`.
+    /// Takes the side about `middle`, pixels from the pixel `base` of `pixels`.
     LFDSIM_FN CutSide(std::uint32_t base, std::uint32_t pixels, F middle, F whole_size, F most_size) {
         using S = Scalar<F>;
         const F half = F(S(0.5)), low = F(0) - F(S(std::int32_t(base))), high = F(S(std::int32_t(pixels - base)));

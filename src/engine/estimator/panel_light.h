@@ -21,7 +21,7 @@ struct PlaneSide {
 
     PlaneSide() = default;
 
-    /// The side about `place`, panel pixels from the base pixel `number`, `size` pixels wide.
+    /// Takes the side about `place`, panel pixels from the base pixel `number`, `size` pixels wide.
     LFDSIM_FN PlaneSide(const SubpixelPart<Scalar<F>>& part, int axis, std::uint32_t number, F place, F size) {
         const std::int32_t cell = part.cell[axis], at = std::int32_t(number), rest = cell == 1 ? 0 : InCell<F>::rest_of(at, cell);
         base = std::uint32_t(cell == 1 ? at : (at - rest) / cell);

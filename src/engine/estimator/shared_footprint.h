@@ -169,7 +169,7 @@ LFDSIM_FN void trace_probes(const TracedDisplay<Scalar<F>>& display, const Pixel
 template <class S>
 struct SharedFootprint {
     enum class State { unlit, narrow, wide, unshared } state;
-    S column, row;  // mean position on the panel, seen from the block's middle: panel pixels from the block's base
+    S column, row;  // mean position on the panel, for rays from the block's middle: panel pixels from the block's base
     S column_right, row_right, column_down, row_down;  // its motion per picture pixel to the right and down
     S width, height;                                   // of a box of the same spread, panel pixels
     S weight;                                          // mean share of light transmitted over the part, lost rays counted as 0

@@ -19,7 +19,7 @@ namespace lfdsim {
 namespace {
 
 /// Light that varies smoothly over a block is computed at its places, the corners of squares of place_step pixels, at most 5 x 5,
-/// and interpolated between them, unless many strata ask for a finer picture.
+/// and interpolated between them, unless there are many strata, for a finer picture.
 constexpr int most_side = 16, place_step = FilteredLimits::place_step, most_places = most_side / place_step + 1, most_lanes = 32;
 
 /// A narrow footprint, and the share of the light at each place that comes through it.
@@ -226,7 +226,7 @@ class FilteredBlock {
                                    F(optics::max(b.height, S(optics::least_box))), weight};
         if (display.emission.whole && optics::max(b.width, b.height) <= S(1))
             return optics::add_small_boxes(tile.panel.plane[0], block.lens.panel, box, light);
-        optics::Light<F> sum = light;  // the function below wants an address: `light` itself stays in registers
+        optics::Light<F> sum = light;  // the function below takes an address: `light` itself stays in registers
         add_other_box(box, sum);
         light = sum;
     }

@@ -30,13 +30,13 @@ struct Gradient {
 /// A cut of the sample domain along one axis.
 struct Cut {
     Gradient u;  // the domain's coordinate, exact at the block's middle, right and lower border
-    S place;     // the position in the plane of the holes, mm from the base lens's axis, seen from the block's middle
+    S place;     // the position in the plane of the holes, mm from the base lens's axis, for rays from the block's middle
 };
 
 /// The part of the domain between two cuts.
 struct Stratum {
     S axis;        // of its lens, mm from that of the base lens
-    S from, to;    // ends within that lens's cell, mm from its axis, seen from the middle of the block
+    S from, to;    // ends within that lens's cell, mm from its axis, for rays from the middle of the block
     bool at_edge;  // an end of the domain, whose position moves from pixel to pixel, lies in it for some pixels
 };
 

@@ -149,7 +149,7 @@ class FootprintMaker {
             follow(b);
             finish();
             if (inside && b.state == State::unshared) return b;
-            // The little light beside holes, where it moves non-linearly, counts as seen from the block's middle.
+            // The little light beside holes, where it moves non-linearly, counts for all pixels as from the block's middle.
             if (b.state == State::unshared) b.stationary = wide = true;
         }
         if (!wide) return b;

@@ -40,7 +40,7 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
         if (k % 2 == 0 && k + 1 < tile.samples) continue;  // the pair's second is to come
         block.add(pair);
         pair = {};
-        if ((k + 1) % block_samples == 0 || k + 2 >= tile.samples) {  // the last of an odd number is a block of its own
+        if ((k + 1) % block_samples == 0 || k + 2 >= tile.samples) {  // the last of an odd number is a separate block
             total.add(block);
             block = {};
         }

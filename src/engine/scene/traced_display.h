@@ -25,16 +25,16 @@ StoredDisplay<S> make_traced_display(const Display&, const Geometry&);
 /// Returns the camera, with the height of the plane where the tracer starts.
 optics::RayOrigin make_ray_origin(const Display&, const Geometry&);
 
-/// Returns the estimator that a display is rendered with: the one it asks for, but points where the filtered one does not apply
+/// Returns the estimator that a display is rendered with: that of its description, but points where the filtered one does not apply
 /// (neither a diffuser nor a pixel filter).
 Estimator estimator_of(const Display&);
 
-/// Points a pixel of by_points() where the display does not ask for a number.
+/// Points a pixel of by_points() where the description has no number.
 constexpr std::int64_t points_on_gpu = 256;
 /// Returns the display as a GPU renders it: by points.
 Display by_points(const Display&);
 
-/// Returns the samples per pixel: what the display asks for, or the default; for the filtered estimator rounded up to a square
+/// Returns the samples per pixel: those of the description, or the default; for the filtered estimator rounded up to a square
 /// number, rows times columns of strata.
 std::int64_t samples_of(const Display&);
 

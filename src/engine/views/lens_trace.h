@@ -1,7 +1,7 @@
 // Light from a point of the panel through one lens to the viewer's side, in double precision. Floor 2.
 //
 // Lengths in mm from the lens's axis, in the axes of the array; depths z from the lens's rear principal plane, towards the viewer.
-// The lens stands alone: its surfaces in their order, its own apertures, and the sheet of stops. In clear and plate surrounds light
+// The lens is isolated: its surfaces in their order, their apertures, and the sheet of stops. In clear and plate surrounds light
 // that crosses walls is therefore left out.
 #pragma once
 #include "display/display.h"

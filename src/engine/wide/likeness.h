@@ -14,7 +14,7 @@ struct Photograph {
     static std::size_t bytes(const Image&);
 
     int width, height;
-    Buffer<SrgbLine> srgb;      // for its own codes, and those of the views that are compared with it
+    Buffer<SrgbLine> srgb;      // for its codes, and those of the views that are compared with it
     Buffer<float> code, light;  // of sRGB codes, of light; height x width each
 };
 

@@ -1,7 +1,7 @@
 // A display as a scene for another renderer, for an independent check of lfdsim's pictures. Floor 2.
 //
-// Same camera, same pixel centres, nearest panel pixels, linear light. What the other program cannot express is either refused or
-// listed as a deviation, also in the scene's own comments.
+// The scene has the same camera and pixel centres, nearest panel pixels and linear light. What the other program cannot express is
+// either refused or listed as a deviation, also in the scene's comments.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"

@@ -25,7 +25,7 @@
 // only; from below they are black, as totally reflected light is there. Where a body of glass is glued on it has no lower face:
 // light enters the layer's medium from that of the glass, and beside it from air.
 //
-// Shapes that share a medium have to be parts of one union; copies of a shape have media of their own.
+// Shapes that share a medium have to be parts of one union; copies of a shape have separate media.
 namespace lfdsim::peers {
 namespace {
 
