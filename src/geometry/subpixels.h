@@ -43,6 +43,7 @@ std::vector<LitPart> bounded_parts(const Panel&);
 /// Weights of red, green and blue in a figure; the sum is 1.
 using ChannelWeights = std::array<double, 3>;
 inline constexpr ChannelWeights luminance_weights{0.2126, 0.7152, 0.0722};  // of linear sRGB
+/// Returns weights with which one channel (0, 1, 2) counts alone.
 constexpr ChannelWeights only(std::size_t channel) {
     ChannelWeights weights{};
     weights[channel] = 1;

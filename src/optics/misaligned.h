@@ -66,6 +66,7 @@ LFDSIM_FN Encounter<F> meet_misaligned(const TracedDisplay<Scalar<F>>& display, 
     return at;
 }
 
+/// Returns `a` in the lanes of `first`, `b` in the others.
 template <class F>
 LFDSIM_FN Vec3<F> choose(Mask<F> first, Vec3<F> a, Vec3<F> b) {
     return {select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};

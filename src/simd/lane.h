@@ -33,10 +33,13 @@ struct LaneTraits {
         for (int k = 0; k < 4; ++k) to[k] = from[std::size_t(row[0]) * 4 + std::size_t(k)];
     }
 };
+/// The type of one lane of an F.
 template <class F>
 using Scalar = typename LaneTraits<F>::Scalar;
+/// The truth values of an F's lanes: what comparisons return.
 template <class F>
 using Mask = typename LaneTraits<F>::Mask;
+/// A 32-bit unsigned integer for each lane of an F.
 template <class F>
 using Uint = typename LaneTraits<F>::Uint;
 
@@ -118,10 +121,10 @@ LFDSIM_FN auto floor_to_int(F a) {
     return to_int(floor(a));
 }
 
-// Division and root of numbers of ordinary size, as rays have: a, b, a / b and the root's argument are within 1e-30 .. 1e30, and a
-// may be 0, too. Other numbers give anything: what uses it must have given up such a ray anyway. On a GPU this needs no branch for
-// other numbers. The steps are Newton's, from an estimate, with a residual that is exact (Markstein 1990), and give the bits of
-// IEEE 754's operations (tests/cuda/arithmetic.cu).
+// inverse(), quotient() and root() are 1/b, a/b and the square root of numbers of ordinary size, as rays have: a, b, a/b and the
+// root's argument are within 1e-30 .. 1e30, and a may be 0, too. The result for other numbers is arbitrary: the caller must have
+// ended such a ray anyway. On a GPU this needs no branch for other numbers. The steps are Newton's, from an estimate, with a
+// residual that is exact (Markstein 1990), and give the bits of IEEE 754's operations (tests/cuda/arithmetic.cu).
 template <class F>
 LFDSIM_FN F inverse(F b) {
 #ifdef __CUDA_ARCH__

@@ -72,6 +72,8 @@ struct LaneTraits<LanePair<H>> {
     }
 };
 
+// The functions of lane.h, on both numbers of a pair.
+
 template <class M>
 LFDSIM_FN bool any(PairMask<M> m) {
     return any(m.a || m.b);

@@ -127,6 +127,8 @@ struct LaneTraits<Lane<N>> {
     }
 };
 
+// The functions of lane.h, lane by lane. Those that need intrinsics exist for the width of the instruction set compiled for.
+
 template <int N>
 LFDSIM_FN LaneMask<N> operator<(LaneUint<N> a, LaneUint<N> b) {
     return {a.v < b.v};

@@ -4,6 +4,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
+// In code for GPUs the types are structs, else vectors of the compiler.
 #ifdef __CUDACC__
 struct alignas(16) Texel {
     float v[4];

@@ -54,6 +54,7 @@ void* block_memory(std::size_t bytes);
 /// A function that renders a tile on the calling thread. All kernels give the same bits.
 using Kernel = void (*)(const Tile&);
 
+// The kernels of the instruction sets; which are compiled in: kernels.cmake.
 void render_tile_scalar(const Tile&);
 void render_tile_baseline(const Tile&);
 void render_tile_avx2(const Tile&);

@@ -4,7 +4,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-constexpr int most_corners = 8;
+constexpr int most_corners = 8;  // of an outline
 
 /// The outline of a lens for each lane: the corners of a polygon, in either sense of rotation.
 template <class F>

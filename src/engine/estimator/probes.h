@@ -5,7 +5,7 @@
 
 namespace lfdsim::optics::inline LFDSIM_ISA {
 
-constexpr int most_probes = 16;
+constexpr int most_probes = 16;  // of a footprint: a multiple of every packet's width
 
 /// Returns the first probe whose flag is set, or the last of all.
 LFDSIM_FN int first_probe(const bool (&a)[most_probes]) {
@@ -13,6 +13,7 @@ LFDSIM_FN int first_probe(const bool (&a)[most_probes]) {
     while (p + 1 < most_probes && !a[p]) ++p;
     return p;
 }
+/// Returns the sum of all numbers, in an order that does not depend on the instruction set.
 template <class S>
 LFDSIM_FN S sum_of(const S (&a)[most_probes]) {
     static_assert(most_probes == 16);
@@ -21,6 +22,7 @@ LFDSIM_FN S sum_of(const S (&a)[most_probes]) {
     for (int p = 0; p < 4; ++p) c[p] = b[p] + b[p + 4];
     return (c[0] + c[2]) + (c[1] + c[3]);
 }
+/// Returns the least of all numbers.
 template <class S>
 LFDSIM_FN S least_of(const S (&a)[most_probes]) {
     S least = a[0];

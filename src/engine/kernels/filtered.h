@@ -27,7 +27,7 @@ struct NarrowFootprint {
     const LitFootprint* footprint;
     S weight[most_lanes];
 };
-constexpr int most_narrow = 2 * (few_strata + more_strata) * (few_strata + more_strata);
+constexpr int most_narrow = 2 * (few_strata + more_strata) * (few_strata + more_strata);  // two for each stratum
 
 /// The memory of a thread, too large for its stack.
 struct FilteredMemory {

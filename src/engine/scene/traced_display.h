@@ -56,6 +56,7 @@ BlockShape block_shape(const optics::TracedDisplay<float>&, const optics::RayOri
 /// rays over less of the lenses than the pixel does.
 bool cuts_pixel(const optics::TracedDisplay<float>&, const optics::RayOrigin&);
 
+/// Returns the direction numbers of the Sobol sequence, computed once.
 const optics::DirectionNumbers& sobol_directions();
 
 }  // namespace lfdsim

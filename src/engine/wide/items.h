@@ -22,6 +22,7 @@ namespace lfdsim::wide {
 
 namespace {
 
+/// A pixel of the frame, or of a square.
 struct Pixel {
     std::int32_t x, y;
 };

@@ -21,6 +21,7 @@ struct LensMesh {
     std::size_t count() const { return surface_of.size(); }
 };
 
+/// The least and the greatest number of triangles that mesh_lens() accepts.
 inline constexpr std::int64_t least_lens_triangles = 8, most_lens_triangles = 4'000'000;
 
 /// Returns a lens of about this number of triangles: within 10 % for 500 and more, else as close as possible. A curved surface is a
