@@ -258,6 +258,7 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
     if (!traced.complete) return {traced, {}};
     return on_threads(request.threads, [&] {
         const Inverse& keys = request.keys();
+        // Eyes in and around the boxes, and the strength of the pull to traced content: it is careful where there are few rays
         const Plan p = plan(request);
         if (request.job.cancelled()) return InvertedPanel{{traced.image, false}, {}};
         InverseReport report;
@@ -280,6 +281,8 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
                 "the panel is made for the display as described, and shown by one with assembly errors: content.made_for = "
                 "\"built\" makes "
                 "it for that one");
+        // Held-out eyes continue the places in the boxes. Numbers of eyes do not overlap, so neither do their grids' shifts and
+        // rays.
         const std::vector<Eye> held_out = eyes_at(places_within(request.boxes, p.in_boxes, keys.held_out), 2'000'000, 1);
         InvertedPanel made = fit(request, p.eyes, held_out, p.counts, p.rays, traced, std::move(report));
         if (made.report.traced)

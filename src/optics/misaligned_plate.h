@@ -107,6 +107,7 @@ struct MovedCaps {
     LFDSIM_FN void next_on_face(bool top, bool inwards, const GlassRays<F>& rays, Mask<F> active, Crossing<F>& best) const {
         const auto& surface = face(top);
         const F sense = F(S(top ? 1 : -1)), flat = F(surface.z + surface.rim), nothing = F(S(-1e9));
+        // On the flat, where no cap covers it
         const F t = (flat - rays.at.z) / rays.to.z;
         Mask<F> on_flat = active && (inwards ? sense * rays.to.z < F(0) : sense * rays.to.z > F(0)) && ahead(t);
         const bool plane = surface.shape == Shape::plane;
@@ -135,6 +136,7 @@ struct MovedCaps {
                 const F ex = dx - rays.to.x * s, ey = across(display.lattice, dy - rays.to.y * s);
                 const Mask<F> near = here && extent.holds(lens) && (ex * ex + ey * ey <= r2);
                 if (none(near)) return;
+                // Where it crosses the lens's cap, in its aperture and beyond the slab, and the sides below the cap
                 const LensPose<F> pose = pose_of(display, extent, lens, near);
                 const Vec2<F> from = from_axis(lens, pose, rays.at.x, rays.at.y);
                 const Vec3<F> local{from.x, from.y, rays.at.z - F(surface.z) - pose.z};

@@ -155,6 +155,7 @@ class CudaQueue : public wide::Queue {
 }  // namespace
 
 GpuSearch find() {
+    // What is missing, if no GPU can be reached at all
     GpuSearch found;
     found.toolkit = text(CUDART_VERSION);
     int version = 0;
@@ -173,6 +174,7 @@ GpuSearch find() {
         found.missing = std::string("the NVIDIA driver answers: ") + cudaGetErrorString(result);
     }
     if (!found.missing.empty()) return found;
+    // Each GPU, and why it cannot be used
     bool any = false;
     for (int k = 0; k < count; ++k) {
         cudaDeviceProp p;

@@ -260,6 +260,7 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
 std::int64_t EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, const Tile& of) const {
     const std::int64_t pixels = std::int64_t(of.x1 - of.x0) * (of.y1 - of.y0);
     std::int64_t samples = 0;
+    // Renders the tile of a work, with its scene, to the place of the tile `of`.
     const auto run = [&](const Work& work, int strata, std::uint32_t points) {
         Tile tile = work.tile;
         tile.out = of.out;
@@ -277,6 +278,7 @@ std::int64_t EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, 
     } else if (filtered_.size() == 1) {
         run(filtered_.front().work, choice.strata, 0);
     } else {
+        // The weighted sum of the pictures that a gaussian diffuser consists of, each of which is rendered to the tile in turn
         const std::size_t width = std::size_t(of.x1 - of.x0) * 3;
         PixelColours sum(std::size_t(pixels) * 3);
         const auto row = [&](std::int32_t y) {

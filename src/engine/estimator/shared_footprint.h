@@ -196,6 +196,7 @@ LFDSIM_FN SharedFootprint<S> sum_up(const Probes<S>& probes, int per_axis) {
     const S part = sum_of(probes.in), count = sum_of(lit);
     b.state = part > S(0) ? State::unlit : State::unshared;
     if (count == S(0)) return b;
+    // Means over the lit probes, of positions relative to one of them
     bool is_lit[most_probes];
     for (int p = 0; p < most_probes; ++p) is_lit[p] = lit[p] > S(0);
     int one = first_probe(is_lit);

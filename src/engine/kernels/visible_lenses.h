@@ -124,6 +124,7 @@ class VisibleLenses : public LensDomain {
             coordinates[d][2 * d + 1] = coordinates[d][2 * d + 1] + step[d];
             coordinates[d][2 * d + 2] = coordinates[d][2 * d + 2] - step[d];
         }
+        // All rays, a packet at a time
         S column[padded], row[padded], lit[padded], i[padded], j[padded];
         const optics::PixelRays<F> same{F(middle.x),          F(middle.y), {F(middle.to.x), F(middle.to.y), F(middle.to.z)},
                                         F(middle.per_length), F(0) < F(1), middle.extent,
@@ -138,6 +139,7 @@ class VisibleLenses : public LensDomain {
             optics::store(end.cell.i, i + k);
             optics::store(end.cell.j, j + k);
         }
+        // Differences to the middle's ray
         Derivatives by{};
         by.known = lit[0] > 0;
         if (!by.known) return by;

@@ -234,6 +234,7 @@ class Builder {
         for (std::uint32_t j = m; j > 0; --j) add(0, j);
         for (std::uint32_t j = 1; j < m; ++j)
             for (std::uint32_t i = 1; i < n; ++i) add(i, j);
+        // The number of the vertex at column i of n and row j of m, which depends on the side of the rim that it is on
         const auto at = [&](std::uint32_t i, std::uint32_t j) {
             if (j == 0) return first + i;
             if (i == n) return first + n + j;

@@ -97,6 +97,7 @@ optics::Hit<float> MeshSurfaces::meet(int k, const optics::Ray<float>& ray) cons
     embree.ray.dir_y = ray.to.y;
     embree.ray.dir_z = ray.to.z;
     embree.ray.mask = ~0u;
+    // One crossing after the other, until the line passes a triangle downwards
     for (int crossing = 0; crossing < 16; ++crossing) {
         embree.ray.tfar = float(2 * half);
         embree.hit.geomID = RTC_INVALID_GEOMETRY_ID;

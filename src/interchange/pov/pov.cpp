@@ -346,6 +346,7 @@ class PovWriter {
                 ++number;
             }
         }
+        // The lenses row by row, then the flat parts beside and between them, then the stop
         all += fmt::format("union {{\n#for (J, 0, {})\n  #declare Y = {};\n  union {{\n", cell_.last(1), cell_.axis_y());
         all += fmt::format("  #for (I, 0, {})\n    #declare At = <{}, Y, 0>;\n    object {{ Lens translate At }}\n{}  #end\n",
                            cell_.last(0), cell_.axis_x(), walls);
