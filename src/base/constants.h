@@ -6,7 +6,7 @@
 namespace lfdsim {
 
 inline constexpr double pi = std::numbers::pi;
-inline constexpr double degree = pi / 180;  // in radians: angle_deg * degree
+inline constexpr double degree = pi / 180;  // in radians: angle_deg * degree; radians / degree are degrees
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 

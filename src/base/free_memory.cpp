@@ -18,14 +18,15 @@ namespace {
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr double most_limit = 9e18;  // version 1 writes "none" as the largest number of pages
 
-/// The first number in a file; nothing where there is none ("max").
+/// Returns the first number in a file; nothing if the file cannot be read or has none ("max": no limit).
 std::optional<double> number_in(const fs::path& file) {
     double value = 0;
     if (std::ifstream in(file); in >> value) return value;
     return std::nullopt;
 }
 
-/// The number after a word at the beginning of a line: "MemAvailable: 23437584 kB", "inactive_file 4096".
+/// Returns the number after a word at the beginning of a line ("MemAvailable: 23437584 kB", "inactive_file 4096"), in the file's
+/// unit; nothing if there is no such line.
 std::optional<double> number_after(const fs::path& file, const std::string& word) {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);) {
@@ -44,7 +45,7 @@ struct Mount {
     fs::path point;
 };
 
-/// Blanks and backslashes in mountinfo are written as octal numbers.
+/// Returns a path of mountinfo, in which blanks and backslashes are written as \ and three octal digits, as it is.
 std::string unescaped(const std::string& text) {
     std::string plain;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -57,6 +58,7 @@ std::string unescaped(const std::string& text) {
     return plain;
 }
 
+/// Returns whether a list of words separated by commas contains a word.
 bool lists(const std::string& options, const std::string& one) {
     std::istringstream in(options);
     for (std::string word; std::getline(in, word, ',');)
@@ -64,6 +66,8 @@ bool lists(const std::string& options, const std::string& one) {
     return false;
 }
 
+/// Returns the mounted trees that control memory, of both versions, from /proc/self/mountinfo: "36 35 98:0 ROOT POINT options
+/// [fields] - TYPE SOURCE SUPER_OPTIONS". Version 1 names its controllers among the super options.
 std::vector<Mount> mounts(const fs::path& root) {
     std::vector<Mount> all;
     std::ifstream in(root / "proc/self/mountinfo");
@@ -80,7 +84,7 @@ std::vector<Mount> mounts(const fs::path& root) {
     return all;
 }
 
-/// This process's group in each version, as /proc/self/cgroup has it: "0::/a/b", "4:memory:/a/b".
+/// Returns this process's group for each version (1, 2), as /proc/self/cgroup has it: "0::/a/b", "4:memory:/a/b".
 std::map<int, std::string> groups(const fs::path& root) {
     std::map<int, std::string> all;
     std::ifstream in(root / "proc/self/cgroup");
@@ -94,7 +98,8 @@ std::map<int, std::string> groups(const fs::path& root) {
     return all;
 }
 
-/// What a group leaves of its limits.
+/// Returns the bytes that a group leaves of its lowest limit; infinite without a limit. Pages of files, which the kernel can
+/// drop, count as free.
 double left_by_group(int version, const fs::path& folder) {
     const fs::path stat = folder / "memory.stat";
     double limit = no_limit, used = 0;
@@ -107,10 +112,12 @@ double left_by_group(int version, const fs::path& folder) {
     return std::max(limit - std::max(used, 0.), 0.);
 }
 
+/// Lowers `least` to `bytes` if these are fewer; `whose` is the text for FreeMemory::whose.
 void consider(FreeMemory& least, double bytes, const std::string& whose) {
     if (bytes < least.bytes) least = {bytes, whose};
 }
 
+/// Considers this process's group and all groups above it, up to the mount point: each has a limit of its own.
 void consider_groups(FreeMemory& least, const fs::path& root) {
     const std::map<int, std::string> own = groups(root);
     for (const Mount& mount : mounts(root)) {
@@ -129,6 +136,7 @@ void consider_groups(FreeMemory& least, const fs::path& root) {
     }
 }
 
+/// Considers the soft limit of a resource, of which `used` bytes are used.
 void consider_limit(FreeMemory& least, __rlimit_resource what, double used, const char* whose) {
     rlimit limit{};
     if (getrlimit(what, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)

@@ -10,7 +10,8 @@
 namespace lfdsim {
 namespace {
 
-/// The zero of the polynomial of degree K between two places where its signs differ, to the last bit.
+/// Returns the zero of the polynomial of degree K between two positions where its signs differ, by bisection: the end is reached
+/// when no number lies between the bounds.
 double zero_between(std::size_t K, double low, double high) {
     const bool rises = hermite(K, high)[K] > 0;
     while (true) {
@@ -22,8 +23,9 @@ double zero_between(std::size_t K, double low, double high) {
 
 using Zeros = std::array<std::vector<double>, max_wavelength_samples + 1>;
 
-/// Zeros of the Hermite polynomials by degree. Between two neighbouring zeros lies one of the next lower degree, and none is
-/// beyond sqrt(2 K + 1).
+/// Returns the zeros of the Hermite polynomials by degree. The zeros of degree K - 1 separate those of degree K, and none of
+/// these is beyond sqrt(2 K + 1): so each zero is bracketed by the ones of the degree before. Negative zeros mirror the positive
+/// ones, and odd degrees have one at 0.
 Zeros all_zeros() {
     Zeros all;
     for (std::size_t degree = 1; degree < all.size(); ++degree) {
@@ -42,6 +44,7 @@ Zeros all_zeros() {
 }  // namespace
 
 std::vector<double> hermite(std::size_t K, double x) {
+    // h_0 = 1, h_1 = sqrt(2) x, h_{k+1} = (sqrt(2) x h_k - sqrt(k) h_{k-1}) / sqrt(k + 1)
     std::vector<double> h(K + 1, 1);
     if (K > 0) h[1] = std::numbers::sqrt2 * x;
     for (std::size_t k = 1; k < K; ++k)
@@ -55,7 +58,8 @@ const std::vector<double>& hermite_zeros(std::size_t degree) {
 }
 
 double hermite_weight(std::size_t degree, double zero) {
-    double squares = 0;  // the weight is the inverse of their sum (Christoffel)
+    // Christoffel's weight is 1 / sum of h_k(x)^2 over k < degree (docs/model.md, "Colour").
+    double squares = 0;
     for (const double h : hermite(degree - 1, zero)) squares += h * h;
     return 1 / squares;
 }

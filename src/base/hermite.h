@@ -5,14 +5,15 @@
 
 namespace lfdsim {
 
-/// Hermite polynomials of degrees 0 to K, orthonormal under the weight exp(-x^2) / sqrt(pi).
+/// Returns the values at x of the Hermite polynomials of degrees 0 to K, orthonormal under the weight exp(-x^2) / sqrt(pi).
 std::vector<double> hermite(std::size_t K, double x);
 
-/// The zeros of the polynomial of a degree from 1 to 32: ascending, symmetric to the last bit. They and hermite_weight() are a
-/// Gauss rule for that weight.
+/// Returns the zeros of the polynomial of a degree from 1 to 32: ascending, symmetric to the last bit. The sum of
+/// hermite_weight() times f(zero) is the mean of f under that weight, exact for polynomials f up to degree 2 `degree` - 1
+/// (Gauss). Throws std::out_of_range for other degrees. May be called from several threads.
 const std::vector<double>& hermite_zeros(std::size_t degree);
 
-/// Christoffel's weight of a zero of the polynomial of that degree; those of all its zeros sum to 1.
+/// Returns Christoffel's weight of a zero of the polynomial of that degree; the weights of all its zeros sum to 1.
 double hermite_weight(std::size_t degree, double zero);
 
 }  // namespace lfdsim

@@ -5,7 +5,7 @@
 
 namespace lfdsim {
 
-/// The caller of long work: shows progress, may stop it. The default does neither.
+/// The caller of long work: it shows progress and may stop the work. This base class does neither.
 class Job {
   public:
     virtual ~Job() = default;
@@ -17,7 +17,7 @@ class Job {
     virtual bool cancelled() const { return false; }
 };
 
-/// Passes on cancellation alone. The stages of single pictures are not shown: progress is that of the whole run.
+/// A job that passes on cancellation alone. Stages of single pictures are then not shown: progress is that of the whole run.
 class Quiet : public Job {
   public:
     explicit Quiet(const Job& whole) : whole_(whole) {}

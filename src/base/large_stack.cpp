@@ -11,9 +11,10 @@
 namespace lfdsim {
 namespace {
 
-constexpr rlim_t enough_bytes = 1 << 20;  // every kernel is tested on as much
-constexpr std::size_t own_bytes = 4 << 20;
+constexpr rlim_t enough_bytes = 1 << 20;    // every kernel is tested on as much
+constexpr std::size_t own_bytes = 4 << 20;  // of the thread that takes the place of a stack with less than that
 
+/// Work and its result, handed through pthread_create().
 struct StackWork {
     const std::function<int()>& run;
     int result = 0;
@@ -28,6 +29,7 @@ int on_enough_stack(const std::function<int()>& work) {
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, own_bytes);
+    // Threads that are started later get as much, too.
     pthread_setattr_default_np(&attributes);
     StackWork all{work};
     pthread_t thread{};
@@ -47,7 +49,7 @@ int on_enough_stack(const std::function<int()>& work) {
             fmt::format("the stack is limited to {} kB (ulimit -s), which is too little, and no thread with more can be started; "
                         "raise that limit to 1024",
                         stack.rlim_cur >> 10));
-    // Signals are for the thread that works, whose waiting they end.
+    // Signals are handled by the thread that works, since they end what it waits for: this thread blocks them.
     sigset_t every;
     sigfillset(&every);
     pthread_sigmask(SIG_BLOCK, &every, nullptr);

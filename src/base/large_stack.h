@@ -4,8 +4,9 @@
 
 namespace lfdsim {
 
-/// Does the work, where the stack that a process is given (`ulimit -s`) is too small for it on one of its own, and has threads that
-/// start later get as much. Throws what the work throws, and std::runtime_error where no such thread can be started.
+/// Does the work and returns its result. Where the stack limit (`ulimit -s`) is below 1 MiB, it runs on a new thread with a
+/// larger stack, and threads that are started later get as much. Throws what the work throws, and std::runtime_error if no such
+/// thread can be started.
 int on_enough_stack(const std::function<int()>& work);
 
 }  // namespace lfdsim

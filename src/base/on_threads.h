@@ -9,7 +9,7 @@
 
 namespace lfdsim {
 
-/// do_it(), whose parallel loops use so many threads; 0: one for each processor.
+/// Returns do_it(), whose parallel loops use `threads` threads; 0: one for each processor.
 template <class Do>
 auto on_threads(int threads, const Do& do_it) {
     const int processors = tbb::info::default_concurrency(), workers = threads > 0 ? threads : processors;

@@ -7,14 +7,15 @@
 namespace lfdsim {
 namespace {
 
-constexpr std::size_t longest_message = 900, kept_head = 500, kept_tail = 300;  // bytes
+constexpr std::size_t longest_message = 900, kept_head = 500, kept_tail = 300;  // bytes; a longer message keeps its head and tail
 
+/// A range of Unicode code points, both ends included.
 struct CodeRange {
     char32_t first, last;
 };
 
-// Unicode's categories Cc (controls), Cf (formats: directions, joiners, tags) and Zl, Zp (separators), and the blanks among letters
-// that have no width or no mark of their own (fillers, selectors).
+// Characters that are escaped: Unicode's categories Cc (controls), Cf (formats: directions, joiners, tags) and Zl, Zp
+// (separators), and letters that are blank or have no width (fillers, selectors).
 constexpr CodeRange unseen[] = {{0x0000, 0x001f},   {0x007f, 0x009f},   {0x00ad, 0x00ad},   {0x034f, 0x034f},   {0x0600, 0x0605},
                                 {0x061c, 0x061c},   {0x06dd, 0x06dd},   {0x070f, 0x070f},   {0x0890, 0x0891},   {0x08e2, 0x08e2},
                                 {0x115f, 0x1160},   {0x17b4, 0x17b5},   {0x180b, 0x180f},   {0x200b, 0x200f},   {0x2028, 0x202e},
@@ -29,14 +30,15 @@ bool is_unseen(char32_t c) {
 
 struct Character {
     char32_t code;
-    std::size_t bytes;  // 0: what stands there is not UTF-8
+    std::size_t bytes;  // 0: the bytes are not UTF-8
 };
 
-// The first character of a text that is not empty (RFC 3629: shortest forms, no surrogates, up to U+10FFFF).
+/// Returns the first character of a text that is not empty (RFC 3629: shortest forms, no surrogates, up to U+10FFFF).
 Character first_of(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char lead = byte(0);
     if (lead < 0x80) return {lead, 1};
+    // The leading byte gives the length; `least` is the smallest code of each length, below which the form is not the shortest.
     const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
     constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
     if (lead < 0xc2 || lead > 0xf4 || text.size() < bytes) return {lead, 0};
@@ -49,11 +51,13 @@ Character first_of(std::string_view text) {
     return code < least[bytes] || code > 0x10ffff || surrogate ? Character{lead, 0} : Character{code, bytes};
 }
 
+/// Returns \u and four digits, of a code above U+FFFF those of its two UTF-16 surrogates.
 std::string escape(char32_t c) {
     if (c < 0x10000) return fmt::format("\\u{:04x}", std::uint32_t(c));
     return fmt::format("\\u{:04x}\\u{:04x}", 0xd800 + (std::uint32_t(c - 0x10000) >> 10), 0xdc00 + (std::uint32_t(c) & 0x3ff));
 }
 
+/// Escapes all characters in `unseen` except those in `allowed`, and all bytes that are not UTF-8.
 std::string harmless(std::string_view text, std::string_view allowed) {
     std::string all;
     all.reserve(text.size());
@@ -70,7 +74,7 @@ std::string harmless(std::string_view text, std::string_view allowed) {
     return all;
 }
 
-// The start of a character at or before a place.
+/// Returns the position of the start of the character that contains byte `at`.
 std::size_t boundary(std::string_view text, std::size_t at) {
     while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) --at;
     return at;

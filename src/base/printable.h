@@ -11,18 +11,18 @@ namespace lfdsim {
 /// name: line breaks and tabs are escaped, too.
 std::string printable(std::string_view text);
 
-/// Makes text of several lines printable, whose line breaks and tabs are its own.
+/// Makes text of several lines printable: as printable(), but line breaks and tabs remain.
 std::string printable_lines(std::string_view text);
 
-/// Whether printable() leaves the text as it is.
+/// Returns whether printable() leaves the text as it is.
 bool is_printable(std::string_view text);
 
-/// A word of a file or of the command line as a message quotes it: printable, 40 bytes of it at most, and an ellipsis for the
+/// Returns a word of a file or of the command line as a message quotes it: printable, at most 40 bytes of it, and "..." for the
 /// rest.
 std::string shortened(std::string_view word);
 
-/// A whole message, whoever wrote it (libraries quote files, too): the middle of a long one is left out, with the number of
-/// bytes. What is wrong stands at its beginning, and the remedy at its end.
+/// Returns a message of at most 900 bytes: the middle of a longer one is left out, with the number of bytes. The fault is named
+/// at a message's beginning and the remedy at its end, and libraries quote files, too, so that any message may be long.
 std::string bounded(std::string_view message);
 
 }  // namespace lfdsim

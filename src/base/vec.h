@@ -14,6 +14,7 @@ constexpr Vec3d cross(const Vec3d& a, const Vec3d& b) {
 }
 
 inline double length(const Vec3d& a) { return std::hypot(a[0], a[1], a[2]); }
+/// Returns the unit vector along a, which must not be 0.
 inline Vec3d normalised(const Vec3d& a) {
     const double whole = length(a);
     return {a[0] / whole, a[1] / whole, a[2] / whole};
