@@ -1,3 +1,5 @@
+// The order of the parts of advice(), and advice on the power and the size of the lenses. docs/model.md, "Advice".
+
 #include "checks/advice.h"
 
 #include "checks/advice_parts.h"
@@ -23,8 +25,8 @@ void advise_on_lenses(Advised& a) {
     const Geometry& g = a.geometry;
     const Theory& t = a.theory;
 
-    // At a focal length of ten times the gap the image of the panel is a virtual one, a tenth farther away than the panel itself
-    // and hardly larger.
+    // With f = 10 g the panel's image is at 1/L = 1/f - 1/g, L = -g/0.9: virtual, a tenth farther away than the panel itself and
+    // hardly larger.
     const bool pinhole = d.lens.type() == LensType::pinhole;
     if (!pinhole && !(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
         a.say(
@@ -32,18 +34,19 @@ void advise_on_lenses(Advised& a) {
             "the panel itself is visible through them. Use glass of an index well above 1 (--set lens.index=1.4918), or surfaces "
             "that are more curved",
             g.focal_length_mm, g.gap_mm);
-    // Beyond a hundred panel heights an image plane is practically at infinity: intended where the scene is far away too, and under
-    // strips, which are focused on the panel so that an eye sees one view through each.
+    // Beyond a hundred panel heights an image plane is practically at infinity. That is intended where the scene is far away,
+    // too, and with strips, which are focused on the panel so that an eye sees one view through each.
     else if (!pinhole && !is_strips(d.array) && !(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&
              !is_sharp(t, g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm))
         a.say("the gap is about the focal length ({:.6g} and {:.6g} mm): the central depth plane is at infinity", g.gap_mm,
               g.focal_length_mm);
     if (g.focal_length_mm < 0) a.say("the lens diverges: it forms no real image of the panel at any gap");
 
+    // Advice on the number of views is about the axis along which they are fewest.
     const bool strips = is_strips(d.array);
     const std::size_t few = strips || t.along[0].views <= t.along[1].views ? 0 : 1;
-    // Lens k begins k N pixels from the first; a fraction of a pixel in N shifts the views of the last lens against those of the
-    // first.
+    // Lens k begins k N pixels from the first: if N is not whole, the views of the last lens are shifted against those of the
+    // first by its distance from a whole number times the number of lenses.
     const auto drift = [&](std::size_t k) {
         return std::abs(t.along[k].views - std::round(t.along[k].views)) * g.lattice.count[k];
     };

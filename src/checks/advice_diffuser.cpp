@@ -1,3 +1,5 @@
+// Advice on dark bands between lenses, and on diffusers that are too strong. docs/model.md, "Dark bands between lenses".
+
 #include "base/constants.h"
 #include "checks/advice_parts.h"
 #include "geometry/dark_bands.h"
@@ -10,14 +12,16 @@ namespace {
 
 constexpr double strongest_deg = 30;  // beyond it views of any usual field of view mix
 
-/// The best distance for a diffuser yet to be added: on the central depth plane, if that is at most halfway to the eye.
+/// Returns the best distance, mm from the vertex plane, for a diffuser yet to be added: that of the central depth plane, where it
+/// costs no sharpness, if that is in front of the lenses and at most halfway to the eye; else 20 lens pitches, at most halfway.
 double best_distance_mm(const Geometry& g, const Theory& t, const Pitch& pitch, double eye_mm) {
     const double central = g.rear_principal_mm + t.central_depth_mm - g.vertex_plane_mm;
     return central > g.top_z_mm - g.vertex_plane_mm && central < eye_mm / 2 ? central : std::min(20 * pitch.least(), eye_mm / 2);
 }
 
-/// Whether the pupil's defocus does what a diffuser would: a point of the lenses' plane blurs to a disk of diameter A |1 - E/F|.
-/// Of the finest dots a disk three pitches wide leaves bands of contrast 0.08, twice the fourth lobe of 2 J1(x)/x.
+/// Returns whether the pupil's defocus closes the gaps as a diffuser would: an eye with a pupil of diameter A, focused at F, sees
+/// each point of the lenses' plane, at distance E, as a disk A |1 - E/F| wide. A disk three pitches wide leaves a contrast of at
+/// most 0.08 of dots of that pitch, twice the fourth lobe of 2 J1(x)/x.
 bool joined_by_pupil(const Display& d, const Geometry& g, double eye) {
     return d.camera.pupil_diameter_mm.value_or(0) * std::abs(1 - eye / g.focus_distance_mm) >=
            3 * std::max(d.array.pitch_mm[0], d.array.pitch_mm[1]);
@@ -28,6 +32,7 @@ std::string degrees_text(const std::array<double, 2>& deg) {
     return deg[0] == deg[1] ? fmt::format("{:.4g} degrees", deg[0]) : fmt::format("{:.4g} x {:.4g} degrees", deg[0], deg[1]);
 }
 
+/// Returns the angle as options of the command line.
 std::string option_text(const std::array<double, 2>& deg) {
     return fmt::format("--set 'diffuser.angle_deg=[{:.4g}, {:.4g}]'", deg[0], deg[1]);
 }
@@ -39,6 +44,8 @@ void advise_on_diffuser(Advised& a) {
     const Geometry& g = a.geometry;
     const bool strips = is_strips(d.array);
     if (strips && d.lens.type() == LensType::pinhole) return;  // a barrier is meant to be dark between its slits
+    // Each axis has its angle 2 atan(S/2d) that closes the gaps, S the spread that joins neighbouring lenses' light there and d
+    // the diffuser's height above the plane that limits the light: at the best distance (best_deg) and at the actual one (angle).
     const Pitch& p = d.array.pitch_mm;
     const double eye = eye_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(g, a.theory, p, eye);
     const std::array<double, 2> joining = joining_spread_mm(g);
@@ -63,11 +70,12 @@ void advise_on_diffuser(Advised& a) {
         a.say("{}: the lenses do not fill their cells, and no diffuser closes the gaps. Add one of {}", seen, best);
     if (!d.diffuser) return;
 
-    // Along strips there are no views to mix.
+    // Strips have views across them only, so only the spread across them can be too strong.
     const bool too_near = (strips ? angle[main] : std::max(angle[0], angle[1])) > strongest_deg;
     const auto [wide, high] = d.diffuser->angle_deg;
     const double strong = strips ? d.diffuser->angle_deg[main] : std::max(wide, high);
     if (bands) {
+        // The spread 2 d tan(omega/2) of this diffuser, relative to the one that closes the gaps
         const auto spread = [&](std::size_t k) {
             return 2 * height[k] * std::tan(d.diffuser->angle_deg[k] * degree / 2) / joining[k];
         };

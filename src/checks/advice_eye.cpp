@@ -1,3 +1,5 @@
+// Advice on the eye's position, and on the position for which elemental images are made. docs/model.md, "Advice".
+
 #include "base/constants.h"
 #include "checks/advice_parts.h"
 
@@ -33,6 +35,8 @@ void advise_on_eye(Advised& a) {
             "images",
             off_axis[far], half_fov(far));
 
+    // The zone from which the whole screen is correct is compared with that of content made for the eye's distance, along the
+    // axis where it is the smaller part.
     Display matched = d;
     matched.content.viewing_distance_mm = eye;
     const Theory with_it = theory(matched, g);

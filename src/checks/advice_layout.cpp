@@ -1,3 +1,5 @@
+// Advice on the position of the array relative to the panel. docs/model.md, "Advice".
+
 #include "base/constants.h"
 #include "checks/advice_parts.h"
 
@@ -7,8 +9,9 @@
 namespace lfdsim {
 namespace {
 
-/// Share of the lenses whose elemental images have their centres beside the panel: at least half of such an image is missing. In
-/// large arrays 256 evenly spread rows and columns are counted.
+/// Returns the share of the lenses whose elemental images are centred beside the panel, so that at least half of the image is
+/// missing. The image of the lens at C is centred at e C, e the elemental pitch over the lens pitch. In arrays of more than 256
+/// columns or rows 256 evenly spread ones are counted.
 double share_beside_panel(const Geometry& g, const LensArray& array, double elemental_over_lens_pitch) {
     const double turn = array.turn_deg() * degree, cos = std::cos(turn), sin = std::sin(turn);
     const auto columns = std::int64_t(std::min(g.lattice.count[0], 256.)), rows = std::int64_t(std::min(g.lattice.count[1], 256.));
@@ -30,8 +33,9 @@ void advise_on_layout(Advised& a) {
     const Display& d = a.display;
     const Geometry& g = a.geometry;
     if (!(d.content.viewing_distance_mm > g.rear_principal_mm)) return;  // there are no such elemental images
-    if (!d.array.count || is_strips(d.array)) return;                    // what covers the panel reaches beyond it
+    if (!d.array.count || is_strips(d.array)) return;                    // without a count lenses reach beyond the panel by design
     const double scale = a.theory.along[0].elemental_pitch_mm / d.array.pitch_mm[0];
+    // Shares beside the panel with and without offset and rotation tell these two causes from elemental images that are too wide.
     LensArray straight = d.array;
     straight.offset_mm = {};
     straight.rotation_deg = 0;

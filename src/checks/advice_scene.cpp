@@ -1,3 +1,5 @@
+// Advice on the scene's position, size and sharpness. docs/model.md, "Advice".
+
 #include "base/constants.h"
 #include "checks/advice_parts.h"
 #include "checks/depth_words.h"
@@ -13,7 +15,8 @@ namespace {
 
 constexpr double nearest_focus_mm = 100;  // of young eyes
 
-/// Whether the scene reaches the eye or lies behind it.
+/// Says if the front or the centre of the scene reaches the eye or lies behind it. Returns whether it does; other advice on the
+/// scene then means nothing.
 bool advise_behind_eye(Advised& a, double eye) {
     const double z = a.geometry.content_depth_mm, front = z + (a.model_half_size_mm ? (*a.model_half_size_mm)[2] : 0);
     if (front < eye) return false;
@@ -24,19 +27,20 @@ bool advise_behind_eye(Advised& a, double eye) {
     return true;
 }
 
-/// A better depth for the scene: a quarter of the way to the eye, or for a near-eye display 1.5 m behind the lenses, or as near to
-/// that as the depth of field allows.
+/// Returns a better depth for the scene: a quarter of the way to the eye; for a near-eye display 1.5 m behind the lenses, or the
+/// depth nearest to that, in 1/z, within the depth of field by the pixel.
 double better_depth_mm(const Advised& a, double eye) {
     if (eye > 2 * nearest_focus_mm) return eye / 4;
     const double sharp = std::clamp(-1 / 1500., a.theory.depth_far_per_mm, a.theory.depth_near_per_mm);
     return sharp < 0 ? 1 / sharp + a.geometry.rear_principal_mm - a.geometry.vertex_plane_mm : -1500;
 }
 
-/// Whether the scene is too near to the eye, as at the lenses of a near-eye display, its default depth.
+/// Says if the scene is nearer to the eye than eyes can focus, as it is by default for a near-eye display (at the lenses).
+/// Returns whether it is.
 bool advise_near_eye(Advised& a, double eye) {
     const double to_eye = eye - a.geometry.content_depth_mm, depth = better_depth_mm(a, eye);
     if (to_eye > nearest_focus_mm) return false;
-    // Half of what the eye sees through the screen, or through one lens if that is less.
+    // The suggested height is half of what the eye sees, at that depth, through the screen, or through one lens if that is less.
     const double seen = std::min(std::min(a.geometry.array_height_mm, a.geometry.panel_height_mm) / eye,
                                  2 * std::tan(a.theory.along[1].fov_elemental_deg * degree / 2));
     a.say(
@@ -50,7 +54,7 @@ void advise_on_size(Advised& a, double eye) {
     const Geometry& g = a.geometry;
     if (!a.display.content.objects.empty()) return;  // a wall behind a scene may well be larger
     const double full_height = g.content_height_mm.value();
-    // Seen from the eye, the scene's middle plane covers this much of the vertex plane.
+    // Projected from the eye onto the vertex plane, the plane of the scene's centre is magnified by E_v/(E_v - z).
     const double projected = eye / (eye - g.content_depth_mm), height = full_height * projected,
                  width = a.model_half_size_mm ? 2 * (*a.model_half_size_mm)[0] * projected : 0;
     const double screen_width = std::min(g.array_width_mm, g.panel_width_mm),
@@ -77,7 +81,7 @@ void advise_on_scene(Advised& a) {
     if (!(eye > 0) || advise_behind_eye(a, eye) || advise_near_eye(a, eye)) return;
     advise_on_size(a, eye);
 
-    // Depths count from the vertex plane, the theory's from the rear principal plane.
+    // The scene's depth is from the vertex plane, theory's from the rear principal plane.
     const double from_lens = g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm;
     const bool at_lenses = std::abs(from_lens) <= widest_aperture_mm(g);  // where all views agree
     if (a.display.lens.type() == LensType::pinhole || at_lenses || is_sharp(a.theory, from_lens)) return;

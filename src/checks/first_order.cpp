@@ -24,6 +24,7 @@ double rounded(double x) {
 namespace {
 
 /// The range of a number of a design request.
+// The allowed values of a design request, by option.
 struct DesignLimit {
     double DesignRequest::*field;
     const char* name;
@@ -36,6 +37,7 @@ constexpr DesignLimit limits[] = {
 };
 constexpr Range depth_range{-1e6, 1e6}, pixel_range{fewest_views * fewest_lenses, 1e5}, views_range{2, 1e4}, pitch_range{1e-3, 1e4};
 
+/// Returns a problem for each value of a request that is out of range or contradicts another one, with its option as `where`.
 std::vector<Problem> out_of_range(const DesignRequest& r) {
     std::vector<Problem> all;
     const auto check = [&](const char* name, double value, const Range& range) {
@@ -52,12 +54,14 @@ std::vector<Problem> out_of_range(const DesignRequest& r) {
     return all;
 }
 
-/// Returns the depth of the central depth plane, mm from the lenses: a tenth of the viewing distance in front of them; for an eye
-/// too near to see the lenses sharply, a metre behind them.
+/// Returns L, the depth of the central depth plane, mm from the lenses, where none is requested: a tenth of the viewing distance
+/// in front of them; for an eye too near to see the lenses sharply, a metre behind them.
 double chosen_depth_mm(const DesignRequest& r) { return r.distance_mm < nearest_sight_mm ? -1000 : rounded(r.distance_mm / 10); }
 
-/// N, the panel pixels behind a lens, and the rule that sets it. From an eye at distance E a lens subtends p/E, the image of a
-/// pixel a|L|/g / (E - L), and g is about p / (2 tan(FOV/2)).
+/// Returns N, the panel pixels behind a lens of the pitch N a, and the rule that determines it; a is the pixel pitch, mm. Seen
+/// from the eye, a lens and the image of a pixel in the central depth plane are to be equally wide, p/E = P_I/(E - L). With P_I =
+/// a |L|/g and g about p/(2 tan(FOV/2)) that is p^2 = 2 a |L| tan(FOV/2) E/(E - L). E is the distance from the panel, since H' is
+/// not known yet.
 std::pair<int, PitchRule> views(const DesignRequest& r, double a, double L) {
     if (r.views) return {int(*r.views), PitchRule::asked};
     if (r.pitch_mm) return {int(std::lround(*r.pitch_mm / a)), PitchRule::asked};
@@ -70,23 +74,25 @@ std::pair<int, PitchRule> views(const DesignRequest& r, double a, double L) {
     return {int(N), near_eye ? PitchRule::pupil : PitchRule::balanced};
 }
 
-/// Half the width of the lens: its blur must not be wider than a panel pixel, a/g.
+/// Returns the radius r of the lens, mm, and what limits it: the cell; r <= 0.9 R; and a blur by spherical aberration, K
+/// (2r/f)^3, of at most `pixel_angle` = a/g, radians.
 std::pair<double, ApertureRule> aperture(double pitch, double R, double f, double pixel_angle) {
     const double cell = pitch / 2, sphere = 0.9 * R, sharp = f / 2 * std::cbrt(pixel_angle / spherical_blur);
     if (cell <= sphere && cell <= sharp) return {cell, ApertureRule::cell};
     return sphere < sharp ? std::pair{sphere, ApertureRule::sphere} : std::pair{sharp, ApertureRule::aberration};
 }
 
-/// Lens and gap for the field of view and the central depth plane: g = 1 / (2 tan(FOV/2)/p - 1/(D - z_r)), f = 1/(1/g + 1/L).
-/// z_r exceeds g by the distance between the principal planes, which depends on the lens; a few iterations find both.
+/// Finds lens and gap for the field of view and the central depth plane L: g = 1/(2 tan(FOV/2)/p - 1/E) and f = 1/(1/g + 1/L),
+/// with E = D' - z_H'. z_H' exceeds g by the distance between the principal planes, which depends on the lens: the iteration
+/// alternates between both. If there is no such gap, gap_mm becomes 0 or what the last round had.
 void place_lenses(FirstOrder& o, double L) {
     const DesignRequest& r = o.request;
     PlanoConvex lens;
     LensArray& array = o.display.array;
     const double p = array.pitch_mm[0], slope = std::tan(r.fov_deg * degree / 2);
-    double apart = 0, gap = 0;  // of the principal planes; g
+    double apart = 0, gap = 0;  // apart: from H to H'; gap: g
     for (int round = 0; round < 60; ++round) {
-        const double before = r.distance_mm - apart;  // D - z_r = before - g
+        const double before = r.distance_mm - apart;  // D' - z_H' = before - g
         // 1/g + 1/(before - g) = 2 tan(FOV/2)/p =: k, so that k g^2 - k before g + before = 0; the root nearer to the panel.
         const double k = 2 * slope / p, root = k * k * before * before - 4 * k * before;
         if (!(before > 0 && root >= 0)) break;
@@ -100,6 +106,7 @@ void place_lenses(FirstOrder& o, double L) {
         lens.sphere_radius_mm = to_nanometre(R);
         lens.aperture_radius_mm = std::floor(radius * 1e6) / 1e6;
         lens.cylinder_height_mm = rounded(h);
+        // T = h + R - sqrt(R^2 - r^2); with the flat face to the panel H is at T/n and H' at the apex, T (1 - 1/n) apart
         const double thickness = lens.cylinder_height_mm + R - std::sqrt((R - radius) * (R + radius));
         apart = thickness * (1 - 1 / pmma_index);
     }
@@ -115,18 +122,21 @@ void place_lenses(FirstOrder& o, double L) {
     }
 }
 
-/// Why a request whose values are in range cannot be met. The display is filled in as far as that point.
+/// Fills in the design for a request whose values are in range. Returns why the request cannot be met, if so; the display is then
+/// filled in as far as that point.
 std::optional<Problem> design(FirstOrder& o) {
     DesignRequest& r = o.request;
     if (!r.depth_mm) r.depth_mm = chosen_depth_mm(r);
     const double L = *r.depth_mm, D = r.distance_mm;
     if (L > D / 2) return Problem{"--depth-mm", fmt::format("is {:g}, more than half of the way to the eye", L)};
+    // The panel: square pixels, a = 25.4 mm/inch x diagonal / sqrt(columns^2 + rows^2)
     const double a = to_nanometre(25.4 * r.panel_inch / std::hypot(double(r.pixels[0]), double(r.pixels[1])));
     Display& d = o.display;
     d.panel.pixels = r.pixels;
     d.panel.pixel_pitch_mm = a;
     const double width = double(r.pixels[0]) * a, height = double(r.pixels[1]) * a, longest = 50 * std::max(D, height);
     if (L < -longest) return Problem{"--depth-mm", fmt::format("is {:g}, which is practically infinity", L)};
+    // The lens pitch, by rule or as requested
     o.near_eye = D < nearest_sight_mm;
     std::tie(o.views, o.pitch_rule) = views(r, a, L);
     d.array.lattice = r.lattice;
@@ -143,6 +153,8 @@ std::optional<Problem> design(FirstOrder& o) {
     }
     place_lenses(o, L);
 
+    // Designs that cannot be built or used: parts more than a quarter of the way to the eye, an image plane at the lenses, narrow
+    // lenses
     const double p = d.array.pitch_mm[0], g = *d.array.gap_mm, z_r = D - o.eye_mm;
     if (!(g > 0 && g <= D / 4))
         return Problem{"--fov-deg", fmt::format("is {:g}, which would need lenses of {:.4g} mm for an eye at {:g} mm, more than a "
@@ -154,8 +166,8 @@ std::optional<Problem> design(FirstOrder& o) {
                                                 "its pitch; --lens ideal does not have this limit",
                                                 r.fov_deg, pmma_index)};
 
-    // Whole elemental images on the panel. Rows of hexagons alternate by half a pitch; corners of theirs stand beyond the first and
-    // last.
+    // As many lenses as have whole elemental images, of the pitch p (1 + g/E), on the panel. Rows of hexagons alternate by half a
+    // pitch, and the corners of hexagons extend beyond the first and the last row.
     const double across = width / (1 + g / o.eye_mm), along = height / (1 + g / o.eye_mm);
     std::array<double, 2> fit{across / p, along / p};
     if (r.lattice == LatticeKind::hexagon)
@@ -163,6 +175,9 @@ std::optional<Problem> design(FirstOrder& o) {
     d.array.count.emplace();
     for (std::size_t k = 0; k < 2; ++k) (*d.array.count)[k] = std::max<std::int64_t>(1, std::int64_t(fit[k] + 1e-6));
 
+    // The frame, in the panel's plane, is 1.05 times as wide as the display appears at H'. Near eyes get a pupil, which joins the
+    // lenses' light, in place of a diffuser; a diffuser has omega = 2 atan(p/2d), upwards of hexagons with their rows' distance
+    // as p.
     d.camera.position_mm = {0, 0, D};
     d.camera.frame_width_mm = rounded(1.05 * std::max(width, height * 16 / 9) * D / o.eye_mm);
     d.camera.resolution = {1280, 720};
@@ -178,7 +193,8 @@ std::optional<Problem> design(FirstOrder& o) {
             diffuser.angle_deg[k] = rounded(2 * std::atan(spacing[k] / (2 * diffuser.distance_mm)) / degree);
     }
     d.content.depth_mm = L;
-    // From the eye the content is as high as half the panel, but no higher than |L|, as it may be as deep as high.
+    // The content appears half as high as the panel from the eye, but is no higher than |L|, since it may be as deep as it is
+    // high.
     d.content.height_mm = rounded(std::min(height / 2 * (o.eye_mm - L) / o.eye_mm, std::abs(L)));
     d.content.viewing_distance_mm = D;
     if (const std::vector<Problem> problems = validate(d); !problems.empty())
@@ -188,13 +204,15 @@ std::optional<Problem> design(FirstOrder& o) {
     return {};
 }
 
+/// Returns whether a request can be met.
 bool possible(DesignRequest r) {
     FirstOrder o{};
     o.request = r;
     return out_of_range(r).empty() && !design(o);
 }
 
-/// The nearest possible values, to about 1 %, each with all others unchanged.
+/// Returns, as text, the nearest possible value of each option with all others unchanged, to about 1 %; empty if there is none
+/// within a factor of 10^6.
 std::string nearest(const DesignRequest& request) {
     std::string text;
     const auto seek = [&](const char* name, auto value_of) {

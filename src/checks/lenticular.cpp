@@ -17,7 +17,8 @@ namespace lfdsim {
 std::optional<CylinderSheet> cylinder_sheet(double pitch_mm, double gap_mm, double index) {
     const double half = pitch_mm / 2, R = to_nanometre(gap_mm * (index - 1));
     if (!(R >= half)) return {};
-    // The wall under the caps is low, as the tracer wants it, and the rest of the sheet is a layer.
+    // The caps' sag is R - sqrt(R^2 - (p/2)^2), and sag, wall h and layer together are n g. The wall is low, as the tracer
+    // requires it (h <= 2 sqrt(R^2 - r^2)), and the rest of the sheet is a layer.
     const double wall = std::sqrt((R - half) * (R + half)), sag = R - wall;
     CylinderSheet sheet;
     sheet.lens.sphere_radius_mm = R;
@@ -34,10 +35,12 @@ constexpr Range inch_range{0.1, 2000}, distance_range{5, 1e5}, lenticular_fov_ra
     lenticular_slant_range{-60, 60}, lenticular_pitch_range{1e-3, 1e4}, sheet_range{1e-3, 1e4}, eyes_range{1, 1000},
     lenticular_pixel_range{fewest_views * fewest_lenses, 1e5};
 
+/// A lenticular display in the making. Each step uses what the earlier ones have determined, so their order matters.
 class Design {
   public:
     explicit Design(const LenticularRequest& request) : r_(request) {}
 
+    /// Runs all steps. Throws InputError where the request cannot be met.
     Lenticular make() {
         check();
         made_.request = r_;
@@ -54,6 +57,7 @@ class Design {
     }
 
   private:
+    /// Throws InputError for values out of range, and for options that determine the same quantity.
     void check() const {
         std::vector<Problem> all;
         const auto value = [&](const char* option, const std::optional<double>& x, const Range& range) {
@@ -91,13 +95,17 @@ class Design {
         made_.two_view = r_.views == 2. && !r_.fov_deg && !r_.sheet_mm;
         slant_deg_ = r_.slant_deg.value_or(r_.views == 2. ? 0 : one_in_three_deg);
         cos_ = std::cos(slant_deg_ * degree);
-        // Under lenses that lean each row shows other colours, so that they mix; upright lenses would show each eye one of them.
+        // Under slanted lenses colours change from row to row, so that they mix; upright lenses would show each eye one of them.
         if (slant_deg_ != 0) d_.panel.subpixels = SubpixelLayout::rgb_stripe;
         n_ = r_.lens == LensType::ideal ? 1 : pmma_index;
     }
 
+    /// Returns tan(FOV/2).
     double slope() const { return std::tan(r_.fov_deg.value_or(usual_fov_deg) * degree / 2); }
 
+    /// Chooses N where neither views nor pitch are given: two views from eye to eye over the field of view at the viewing
+    /// distance, fewer if lenses would be wider than lens_arc_minutes there. The field of view of a given sheet is not known yet:
+    /// D'/2 is taken for its width.
     void choose_views() {
         made_.views_rule = ViewsRule::asked;
         if (r_.views || r_.pitch_mm) return;
@@ -107,18 +115,19 @@ class Design {
         r_.views = std::clamp(std::min(wanted, most), 3., lenticular_views_range.high);
     }
 
-    /// g, E and the pitch of the elemental images along the rows, which the field of view, the sheet or the eyes decide.
+    /// Finds g, E and the elemental pitch along the rows from the field of view, the sheet, or the eyes of two views. Strips are
+    /// focused on the panel through their own glass, so that z_H' = n g and E = D' - n g.
     void find_gap() {
         const double D = r_.distance_mm;
         const auto eye = [&](double gap) { return D - n_ * gap; };
         if (r_.sheet_mm) {
             gap_ = *r_.sheet_mm / n_;
         } else if (made_.two_view) {
-            // Neighbouring pixels are seen an eye's distance b apart, a E/g = b.
+            // Neighbouring pixels are seen an eye's distance b apart, a E/g = b, so g = a D'/(b + n a).
             const double b = r_.eyes_mm.value_or(usual_eyes_mm);
             gap_ = a_ * D / (b + n_ * a_);
         } else {
-            // tan(FOV/2) = p'/(2 g), along the rows; p' = N a, or p (1 + g/E)/cos(slant) of a given pitch.
+            // tan(FOV/2) = p'/(2 g) along the rows, with p' = N a, or p (1 + g/E)/cos(slant) of a given pitch, by iteration.
             gap_ = r_.views ? *r_.views * a_ / (2 * slope()) : *r_.pitch_mm / (2 * slope() * cos_);
             for (int round = 0; round < 60 && r_.pitch_mm; ++round)
                 gap_ = *r_.pitch_mm * (1 + gap_ / std::max(eye(gap_), D / 4)) / (2 * slope() * cos_);
@@ -146,7 +155,7 @@ class Design {
                                          pitch_, made_.views, 2 * a_ * cos_));
     }
 
-    /// Which option makes lenses less curved, and its limit: g = p/(2 (n - 1)) is the least that cylinders can focus to.
+    /// Returns which option makes lenses less curved, and its limit: R = (n - 1) g >= p/2 needs g >= p/(2 (n - 1)).
     std::string least_curved() const {
         const double least = pitch_ / (2 * (n_ - 1));
         if (r_.sheet_mm) return fmt::format("--sheet-mm of at least {:.4g}", std::ceil(1000 * n_ * least) / 1000);
@@ -154,6 +163,7 @@ class Design {
         return fmt::format("--fov-deg of at most {:.3g}", std::floor(20 * std::atan(elemental_ / (2 * least)) / degree) / 10);
     }
 
+    /// Makes ideal lenses at the gap, or cylinders of glass on a sheet.
     void make_lenses() {
         d_.array.lattice = LatticeKind::strips;
         d_.array.aperture = Aperture::cell;
@@ -180,8 +190,9 @@ class Design {
         place_lenses_on_pixels();
     }
 
-    /// Upright lenses over whole pixels: the borders of elemental images must fall between pixels. That in the panel's middle is
-    /// one of an even number of lenses; with an odd one they are half an elemental image beside it.
+    /// Chooses number and offset of upright lenses whose views are whole pixels such that the borders of elemental images fall
+    /// between pixels. The border in the panel's middle is one of an even number of lenses; with an odd number, borders are half
+    /// an elemental image beside the middle.
     void place_lenses_on_pixels() {
         d_.array.count = lens_count(d_.panel, d_.array);
         if (slant_deg_ != 0) return place_lenses_on_subpixels();
@@ -193,13 +204,15 @@ class Design {
         if (odd_panel && !odd_views) d_.array.offset_mm = {to_nanometre(a_ / 2 / (1 + gap_ / eye_)), 0};
     }
 
-    /// Lenses that lean: where from row to row they move by a simple part of a subpixel, and their elemental images are as many
-    /// parts wide, the places of subpixels' centres in them are multiples of that part. Those on a border move half of it away.
+    /// Moves slanted lenses whose elemental images' borders would fall on centres of subpixels. If from row to row lenses move by
+    /// a multiple of 1/k of a subpixel, k at most 4, and elemental images are such a multiple wide, all centres lie at multiples
+    /// of 1/k subpixel in their images: an offset of half of that keeps the borders clear of all of them.
     void place_lenses_on_subpixels() {
         const double lean = 3 * std::tan(slant_deg_ * degree), N = 3 * elemental_ / a_;  // in subpixels
         const auto [columns, rows] = r_.pixels;
         const auto count = double(d_.array.count->at(0));
         for (const int parts : {1, 2, 3, 4}) {
+            // The distance of x from a multiple of 1/k, in units of 1/k; it adds up over rows and lenses.
             const auto off = [&](double x) { return std::abs(x * parts - std::round(x * parts)); };
             if (off(lean) * double(rows) > 0.2 || off(N) * count > 0.2) continue;
             const double first_row = rows % 2 == 0 ? 0.5 : 0, border = d_.array.count->at(0) % 2 == 0 ? 0 : N / 2;
@@ -209,9 +222,10 @@ class Design {
         }
     }
 
+    /// Places camera and content. The box filter and the pupil replace the diffuser, which strips do not have.
     void make_ray_origin() {
         const double width = double(r_.pixels[0]) * a_, height = double(r_.pixels[1]) * a_;
-        // Between two views an eye would see both.
+        // The camera is in the middle of a view; half-way between two views an eye would see both.
         d_.camera.position_mm = {made_.two_view ? rounded(made_.view_step_mm / 2) : 0, 0, r_.distance_mm};
         d_.camera.frame_width_mm = rounded(1.05 * std::max(width, height * 16 / 9));
         d_.camera.resolution = {1280, 720};
@@ -225,6 +239,8 @@ class Design {
     LenticularRequest r_;
     Lenticular made_{};
     Display d_;
+    // a_: pixel pitch; n_: index of the sheet (1 for ideal lenses); gap_: g; eye_: E; pitch_: p; elemental_: p' along the rows;
+    // all in mm
     double a_ = 0, slant_deg_ = 0, cos_ = 1, n_ = 1, gap_ = 0, eye_ = 0, pitch_ = 0, elemental_ = 0;
 };
 

@@ -1,3 +1,5 @@
+// The order of the checks of a description.
+
 #include "checks/findings.h"
 #include "geometry/geometry.h"
 

@@ -1,3 +1,5 @@
+// Checks of the content: each object has one source and one size, and the inverse pick-up can use its keys.
+
 #include "base/vec.h"
 #include "checks/findings.h"
 #include "display/keys.h"
@@ -5,6 +7,7 @@
 namespace lfdsim {
 namespace {
 
+// An object is either a model or an image. `at` is the object's table with a dot at the end.
 void check_source(const std::string& at, const SceneObject& o, Findings& findings) {
     const std::string model = at + "model", image = at + "image";
     if (!findings.sound(model) || !findings.sound(image)) return;
@@ -13,6 +16,7 @@ void check_source(const std::string& at, const SceneObject& o, Findings& finding
     if (o.model.empty() && o.image.empty()) findings.add(model, "is missing; give {}, a mesh file, or {}, a picture", model, image);
 }
 
+// An object has exactly one size: height, width, or a model's unit.
 void check_size(const std::string& at, const SceneObject& o, Findings& findings) {
     for (const char* key : {"height_mm", "width_mm", "unit_mm"})
         if (!findings.sound(at + key)) return;
@@ -23,7 +27,7 @@ void check_size(const std::string& at, const SceneObject& o, Findings& findings)
                      "is not the only size; leave out all but one of {0}height_mm, {0}width_mm and {0}unit_mm", at);
 }
 
-// What only a mesh has.
+// Keys that only a model can have are refused for an image.
 void check_image(const std::string& at, const SceneObject& o, Findings& findings) {
     if (o.image.empty() || !o.model.empty()) return;
     if (o.unit_mm) findings.add(at + "unit_mm", "is the unit of a model's file; give an image {0}height_mm or {0}width_mm", at);

@@ -1,3 +1,5 @@
+// Checks of media: each has either an index or a glass, whose index is known and plausible at every wavelength that is used.
+
 #include "base/counted.h"
 #include "checks/findings.h"
 #include "display/colour.h"
@@ -26,6 +28,7 @@ void check_wavelengths(const std::string& where, const Glass& glass, const Displ
         }
 }
 
+// Checks the glass's formula and coefficients, then its index at the wavelengths, if these are sound.
 void check_glass(const std::string& where, const Glass& glass, const Display& d, Findings& findings) {
     if (glass.formula == Formula::unknown) return findings.add(where, "{} has not been looked up in a catalogue", named(glass));
     if (!takes(glass.formula, glass.coefficients.size()))

@@ -1,3 +1,5 @@
+// Checks of the resolved geometry: parts must not collide, and lengths must be within bounds.
+
 #include <cmath>
 
 #include "checks/findings.h"
@@ -8,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-// The lens must stand in front of the panel, and the planes that theory measures from must be at finite places.
+// The lens must lie in front of the panel and its layers, and the planes that theory measures from must be at finite positions.
 void check_heights(const Display& d, const Geometry& g, Findings& findings) {
     const char* given = d.array.gap_mm ? "array.gap_mm" : "array.base_z_mm";
     if (!positive_length.contains(g.gap_mm))
@@ -32,7 +34,8 @@ void check_camera(const Display& d, const Geometry& g, Findings& findings) {
     const Vec3d &eye = d.camera.position_mm, &target = d.camera.target_mm;
     const double across = std::hypot(target[0] - eye[0], target[1] - eye[1]), distance = std::hypot(across, target[2] - eye[2]);
     const double top = std::max(g.top_z_mm, g.diffuser_z_mm.value_or(0));
-    // A lens camera's pupil lies across the line of sight: its rim reaches lower than its centre when the camera looks sideways.
+    // A pupil is perpendicular to the line of sight: when the camera looks sideways, by the angle theta from the normal, its rim
+    // reaches lower than its centre by A/2 sin(theta).
     const double rim = eye[2] - d.camera.pupil_diameter_mm.value_or(0) / 2 * across / distance;
     if (!(eye[2] > top))
         findings.add("camera.position_mm", "z = {} mm is inside the display, whose {} {:.6g} mm from the panel; give a larger z",
@@ -53,7 +56,7 @@ void validate_layout(const Display& d, Findings& findings) {
     if (findings.sound("panel."))
         check_size("panel.pixels", double(d.panel.pixels[0]) * d.panel.pixel_pitch_mm,
                    double(d.panel.pixels[1]) * d.panel.pixel_pitch_mm, findings);
-    // a lens that cannot be made has no place, nor has one on layers that cannot
+    // A lens that cannot be made has no position, nor has one on layers that cannot.
     for (const char* needed : {"lens.", "array.", "panel.layer", "panel.wavelengths_nm"})
         if (!findings.sound(needed)) return;
     const Geometry g = resolve_unchecked(without_errors(d));
@@ -64,7 +67,7 @@ void validate_layout(const Display& d, Findings& findings) {
             "diffuser.distance_mm",
             "{} mm puts the diffuser inside the lenses, which extend {:.6g} mm above the vertex plane; give more than that",
             d.diffuser->distance_mm, g.top_z_mm - g.vertex_plane_mm);
-    // a misplaced diffuser could put the camera below it: report one fault, not two
+    // A misplaced diffuser might put the camera below it: one fault is reported, not two.
     if (findings.sound("camera.") && findings.sound("diffuser.")) check_camera(d, g, findings);
     if (findings.sound("content.") && !(d.content.viewing_distance_mm > g.top_z_mm))
         findings.add("content.viewing_distance_mm",

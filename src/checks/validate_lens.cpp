@@ -1,3 +1,5 @@
+// Checks of the lens: it can be made, and it fits its cell. docs/model.md, "Lenses" and "Apertures and stops".
+
 #include <cmath>
 
 #include "checks/findings.h"
@@ -9,6 +11,7 @@
 namespace lfdsim {
 namespace {
 
+// The checks of each kind of lens.
 class LensCheck {
   public:
     LensCheck(const Display& d, Findings& f) : display(d), lens(d.lens), array(d.array), findings(f) {}
@@ -51,7 +54,7 @@ class LensCheck {
                              given.surfaces[i].distance_mm, given.surfaces[i].distance_mm - clear);
     }
 
-    // False: it is missing, or not known.
+    // Checks the width of a lens that may do without a radius. Returns whether there is a radius, or none is needed.
     bool check_radius(const std::optional<double>& radius) {
         if (!findings.sound("lens.aperture_radius_mm")) return false;
         if (array.aperture == Aperture::cell) return true;
@@ -77,7 +80,8 @@ class LensCheck {
                          *lens.stop_radius_mm, array.pitch_mm.least(), inner_radius_mm(array));
     }
 
-    // Checks a plano-convex lens: its cap is part of a sphere, which must cover the aperture and not reach the flat face.
+    // Checks a plano-convex lens: its cap is a part of a sphere that must cover the aperture, R >= r, and not reach the flat
+    // face, h <= 2 sqrt(R^2 - r^2).
     void check_ball(const PlanoConvex& ball) {
         const double R = ball.sphere_radius_mm, r = glass_radius_mm(ball.aperture_radius_mm, array), h = ball.cylinder_height_mm;
         const bool corner = r > ball.aperture_radius_mm.value_or(0);
@@ -93,9 +97,10 @@ class LensCheck {
                          h, R, highest);
     }
 
+    // Checks that a surface is defined over its whole semi-aperture, and stays within bounds.
     void check_sag(std::size_t i, const PlacedSurface& s) {
         const std::string where = fmt::format("lens.surface.{}.semi_aperture_mm", i);
-        // the conic's own edge, where 1 - (1 + k) c^2 s^2 = 0
+        // A conic ends where 1 - (1 + k) c^2 s^2 = 0.
         const double edge = std::sqrt(1 / std::max((1 + s.conic) * s.curvature_per_mm * s.curvature_per_mm, 0.0));
         const auto [low, high] = sag_range_mm(s);
         if (s.semi_aperture_mm > edge)

@@ -1,4 +1,5 @@
-// Errors of the array that cannot be: parts would collide, or the rays of such a display are not defined. docs/model.md, "Errors".
+// Checks of errors of the array: they are refused where parts would collide, or where the rays of such a display are not defined.
+// docs/model.md, "Errors".
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +12,7 @@
 namespace lfdsim {
 namespace {
 
+/// The errors of a display that is valid without them. g_ is the geometry without them, too.
 class ErrorsCheck {
   public:
     ErrorsCheck(const Display& d, Findings& f) : d_(d), e_(d.errors), g_(resolve_unchecked(without_errors(d))), findings_(f) {}
@@ -35,8 +37,8 @@ class ErrorsCheck {
     }
 
   private:
-    /// Refuses the errors that a lens without freedom to move, or a surround without a tracer for them, cannot have; a glued lens
-    /// may still move sideways and be rotated.
+    /// Refuses the errors that lenses cannot have, for the reason `why`. With `sideways` these are all errors (no tracer for them
+    /// in that surround), else those that lift or tilt lenses: a glued lens may still be shifted and rotated.
     void refuse_all(std::string_view why, bool sideways) {
         const std::string what = fmt::format("is given, but {}; leave it out", why);
         const auto one = [&](const char* key, bool given) { refuse(key, given, what); };
@@ -54,17 +56,18 @@ class ErrorsCheck {
         one("decenter_sd_mm", e_.decenter_sd_mm != 0);
         one("curvature_sd", e_.curvature_sd != 0);
     }
-    /// What lenses cannot have is refused where it is drawn, and where the table gives it.
+    /// Refuses an error of single lenses where it is drawn (`key`) and where the table gives it (`column`).
     void refuse_each(const char* key, bool drawn, const char* column, bool in_table, std::string_view why) {
         refuse(key, drawn, fmt::format("is given, but {}; leave it out", why));
         refuse("table", in_table, fmt::format("gives {}, but {}; make them 0", column, why));
     }
+    /// Adds a problem with errors.`key` if it is given and has none yet.
     void refuse(const char* key, bool given, std::string_view what) {
         const std::string path = fmt::format("errors.{}", key);
         if (given && findings_.sound(path)) findings_.add(path, "{}", what);
     }
 
-    /// Whether a face of the lens lies lower than its rim somewhere, seen from outside.
+    /// Returns whether a face of the lens is concave to the outside: somewhere it lies lower than its rim.
     bool hollow() const {
         const auto rim = [](const PlacedSurface& s) {
             return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm);
@@ -73,7 +76,7 @@ class ErrorsCheck {
                sag_range_mm(g_.surfaces.front())[1] > rim(g_.surfaces.front()) + rounding_mm;
     }
 
-    /// Whether the table gives any.
+    /// Returns whether the table alone gives errors of a kind, a member of LensErrorBounds.
     template <class Member>
     bool has(Member member) const {
         Errors table;
@@ -81,9 +84,12 @@ class ErrorsCheck {
         const LensErrorBounds b = bounds(d_.array, table);
         return std::ranges::any_of(b.*member, [](double x) { return x != 0; });
     }
-    /// The key to blame for what standard deviation and table come to.
+    /// Returns the key that is responsible for a bound: the standard deviation's, or the table if there is none.
     const char* of(const char* key, double sd) const { return sd != 0 || !e_.given ? key : "errors.table"; }
 
+    /// Checks the errors of single lenses by their bounds: three standard deviations and the table. Displacements are limited to
+    /// the larger of half the clearance between lenses and a twentieth of the pitch, since rays are tested only against lenses
+    /// near their lattice positions.
     void check_lenses() {
         const double lenses = g_.lattice.count[0] * g_.lattice.count[1];
         if (lenses > most_different_lenses)
@@ -110,7 +116,7 @@ class ErrorsCheck {
             }
     }
 
-    /// What is wrong with a lens of 1 + e times the curvatures, if anything.
+    /// Returns what is wrong with a lens whose curvatures are 1 + e times the nominal ones; empty if nothing.
     std::string curved(double e) const {
         if (e <= -0.9) return "less than a tenth";
         if (d_.lens.is_thin()) return {};
@@ -123,7 +129,8 @@ class ErrorsCheck {
         return {};
     }
 
-    /// Lowest and highest z that the lenses reach, which must lie between the layers and what stands in front of them.
+    /// Checks the lowest and the highest z that lenses reach with all errors together: they must stay above the layers and below
+    /// diffuser, camera and viewer.
     void check_heights() {
         const LensErrorBounds b = bounds(d_.array, e_);
         const double tilt = std::max(b.tilt_deg[0], b.tilt_deg[1]) * degree,
@@ -145,7 +152,7 @@ class ErrorsCheck {
         else if (up > 0 && !(d_.camera.position_mm[2] > top && d_.content.viewing_distance_mm > top))
             findings_.add(culprit(), "moves lenses by up to {:.6g} mm towards the viewer, as far as the camera or the viewer", up);
     }
-    /// What moves lenses up or down.
+    /// Returns the key that moves lenses up or down: the first that is given.
     const char* culprit() const {
         return e_.gap_mm != 0                                 ? "errors.gap_mm"
                : e_.wedge_deg[0] != 0 || e_.wedge_deg[1] != 0 ? "errors.wedge_deg"

@@ -1,3 +1,5 @@
+// Checks of the panel's subpixels: layout, cell and rectangles must go together. docs/model.md, "Subpixels".
+
 #include "checks/findings.h"
 #include "display/keys.h"
 #include "geometry/subpixels.h"
@@ -5,6 +7,7 @@
 namespace lfdsim {
 namespace {
 
+// Checks a custom layout: rectangles within limits, of pixels of the cell, with an area, for each channel, and without overlaps.
 void check_custom(const Panel& panel, Findings& findings) {
     const auto where = [](std::size_t k) { return fmt::format("panel.subpixel.{}", k); };
     if (panel.custom.size() > max_subpixels)
@@ -49,7 +52,7 @@ void validate_panel(const Display& d, Findings& findings) {
     if (custom && panel.custom.empty())
         findings.add("panel.subpixel", "is missing; give [[panel.subpixel]] with channel, pixel and rect for each of r, g, b");
     if (custom && findings.sound("panel.subpixel")) check_custom(panel, findings);
-    // The tracer counts four times as many.
+    // The tracer counts four times as many positions on such a panel, and its limit is 2^31.
     constexpr double most = two_to_31 / 4;
     const double pixels = double(panel.pixels[0]) * double(panel.pixels[1]);
     if (!shines_all_over(panel) && pixels >= most && findings.sound("panel.pixels"))

@@ -1,3 +1,5 @@
+// Checks of values by themselves: ranges, counts, and keys that exclude or need one another.
+
 #include <cmath>
 
 #include "base/vec.h"
@@ -9,7 +11,8 @@
 namespace lfdsim {
 namespace {
 
-// Values against the ranges of their keys.
+// Checks values against the ranges of their keys; of lists each element, under its index. visit_all() calls it with each type of
+// value.
 class RangeCheck {
   public:
     explicit RangeCheck(Findings& findings) : findings_(findings) {}
@@ -52,14 +55,16 @@ void check_surface_count(const SurfaceLens& lens, Findings& findings) {
     if (lens.surfaces.size() > max_surfaces) findings.add("lens.surface", "has more than the {} surfaces allowed", max_surfaces);
 }
 
-// The product of two int64 may overflow; in double it does not, and its 53 bits are exact up to 2^31.
+// Refuses products of 2^31 and more, the tracer's limit. The product of two int64 may overflow; in double it does not, and its 53
+// bits are exact up to there.
 void check_product(const std::string& where, const std::array<std::int64_t, 2>& n, Findings& findings) {
     const double product = double(n[0]) * double(n[1]);
     if (findings.sound(where) && product >= two_to_31)
         findings.add(where, "{} x {} = {:.0f}, allowed is a product below 2^31 = {:.0f}", n[0], n[1], product, two_to_31);
 }
 
-// Rays between lenses need one glass body per lens: a thin lens has none, a compound one more than the tracer follows.
+// Rays between lenses need one glass body with two surfaces per lens: a thin lens has no body, and the tracer does not follow
+// rays between compound ones.
 void check_surround(const Display& d, Findings& findings) {
     if (d.array.surround == Surround::opaque || !findings.sound("array.surround")) return;
     const std::string_view surround = word(d.array.surround);
@@ -93,13 +98,13 @@ void check_view(const Camera& camera, Findings& findings) {
         findings.add("camera.target_mm", "is the position of the camera; give another point to look at");
     else if (up_length < shortest_mm)
         findings.add("camera.up", "has the length {} and so no direction; take [0, 1, 0]", up_length);
-    // |view x up| = |view| |up| sin(angle): below a microradian single precision cannot resolve the picture's up
+    // It holds |view x up| = |view| |up| sin(angle): below a microradian single precision cannot resolve the picture's up.
     else if (length(cross(view, up)) <= 1e-6 * distance * up_length)
         findings.add("camera.up",
                      "lies along the line of sight from camera.position_mm to camera.target_mm; take another direction");
 }
 
-// What the lattice asks of the other keys of the array.
+// Checks the keys of the array that depend on the lattice.
 void check_lattice(const LensArray& array, Findings& findings) {
     if (!findings.sound("array.lattice")) return;
     const std::string_view lattice = word(array.lattice);
@@ -117,7 +122,7 @@ void check_lattice(const LensArray& array, Findings& findings) {
         findings.add("array.slant_deg", "both array.slant_deg and array.rotation_deg given; leave one out");
 }
 
-// Keys that exclude one another or need one another.
+// Checks keys that exclude one another or need one another.
 void check_choices(const Display& d, Findings& findings) {
     if (d.array.gap_mm && d.array.base_z_mm && findings.sound("array.base_z_mm"))
         findings.add("array.base_z_mm", "both array.gap_mm and array.base_z_mm given; leave one out");
