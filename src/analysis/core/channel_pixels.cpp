@@ -32,6 +32,8 @@ std::optional<ChannelPixels::Shining> ChannelPixels::at(const Place& place) cons
     for (const ChannelRect& part : parts_) {
         Place corner{};
         bool inside = true;
+        // The rectangle is half-open and repeats with its cell: the position is compared from the corner of the cell in which it
+        // lies.
         for (std::size_t k = 0; k < 2; ++k) {
             const double cell = part.lit.plane.cell[k];
             corner[k] = std::floor(place[k] / cell) * cell;
@@ -39,6 +41,7 @@ std::optional<ChannelPixels::Shining> ChannelPixels::at(const Place& place) cons
         }
         if (inside) {
             const auto from_corner = [&](const Place& p) { return Place{corner[0] + p[0], corner[1] + p[1]}; };
+            // A rectangle that shows a pixel off the panel is dark.
             const Place pixel = from_corner(part.pixel);
             for (std::size_t k = 0; k < 2; ++k)
                 if (pixel[k] < 0 || pixel[k] >= size_[k]) return {};

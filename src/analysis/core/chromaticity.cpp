@@ -9,7 +9,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double dark_part = 0.1;  // of the mean luminance
+constexpr double dark_part = 0.1;  // of the mean luminance: parts below it count as dark
 
 std::array<double, 3> light_of(const ColourSums& part, int without) {
     return {total(part[0], without), total(part[1], without), total(part[2], without)};
@@ -21,7 +21,8 @@ double luminance_of(const std::array<double, 3>& rgb) {
 
 Chromaticity minus(const Chromaticity& a, const Chromaticity& b) { return {a[0] - b[0], a[1] - b[1]}; }
 
-/// Chromaticities of parts from that of all of them, without one of the sets.
+/// Returns the chromaticities of parts relative to that of their light together, which goes to `together`; without one of the
+/// sets.
 std::vector<Chromaticity> differences(const std::vector<ColourSums>& parts, const std::vector<double>& weights, int without,
                                       Chromaticity& together) {
     std::array<double, 3> sum{};
@@ -36,6 +37,7 @@ std::vector<Chromaticity> differences(const std::vector<ColourSums>& parts, cons
 struct Distances {
     double largest, mean;
 };
+/// Returns the largest and the weighted mean length of differences.
 Distances distances(const std::vector<Chromaticity>& from_mean, const std::vector<double>& weights) {
     Distances found{0, 0};
     double whole = 0;
@@ -49,10 +51,11 @@ Distances distances(const std::vector<Chromaticity>& from_mean, const std::vecto
     return found;
 }
 
-/// Whether a part has at least a tenth of the mean luminance, and whether that is sure.
+/// Whether a part has at least a tenth of the mean luminance, and whether that is certain.
 struct LitTest {
     bool lit, sure;
 };
+/// Tests each part: it is certain if the luminance differs from a tenth of the mean by more than twice its stated error.
 std::vector<LitTest> lit_or_dark(const std::vector<ColourSums>& parts, const std::vector<double>& weights) {
     std::vector<Sums> luminance(parts.size(), Sums{});
     Sums limit{};
@@ -76,6 +79,7 @@ std::vector<LitTest> lit_or_dark(const std::vector<ColourSums>& parts, const std
     return found;
 }
 
+/// Returns the mean of the sets' values, at least 0, with the excess of the figure of all sets together in its error.
 Estimate with_excess(const Sums& found, double of_all_sets) {
     Estimate e = estimate(found);
     e.value = std::max(e.value, 0.);
@@ -87,6 +91,7 @@ Estimate with_excess(const Sums& found, double of_all_sets) {
 
 Chromaticity chromaticity(const std::array<double, 3>& rgb) {
     const auto [r, g, b] = rgb;
+    // XYZ by the matrix of IEC 61966-2-1; u' = 4X/(X + 15Y + 3Z), v' = 9Y/(X + 15Y + 3Z)
     const double x = 0.4124 * r + 0.3576 * g + 0.1805 * b, y = 0.2126 * r + 0.7152 * g + 0.0722 * b,
                  z = 0.0193 * r + 0.1192 * g + 0.9505 * b, sum = x + 15 * y + 3 * z;
     if (!(sum > 0)) return {nan, nan};
@@ -95,7 +100,8 @@ Chromaticity chromaticity(const std::array<double, 3>& rgb) {
 
 ColourSpread colour_spread(const std::vector<ColourSums>& parts, const std::vector<double>& weights) {
     const std::vector<LitTest> all = lit_or_dark(parts, weights);
-    const auto lit_parts = [&](std::size_t other) {  // with that one of them taken for the other; parts.size(): none
+    // Numbers of the lit parts, with the part `other` counted as the opposite of what the test found; parts.size(): none.
+    const auto lit_parts = [&](std::size_t other) {
         std::vector<std::size_t> number;
         for (std::size_t k = 0; k < parts.size(); ++k)
             if (all[k].lit != (k == other)) number.push_back(k);
@@ -116,12 +122,14 @@ ColourSpread colour_spread(const std::vector<ColourSums>& parts, const std::vect
                         std::vector(parts.size(), nan),
                         int(parts.size() - lit.size())};
     if (lit.empty()) return spread;
+    // All sets together: for map and plot, and for the excess
     const std::vector<Chromaticity> of_all = differences(lit, share, -1, spread.together);
     for (std::size_t k = 0; k < lit.size(); ++k) {
         spread.parts[number[k]] = {spread.together[0] + of_all[k][0], spread.together[1] + of_all[k][1]};
         spread.distance[number[k]] = std::hypot(of_all[k][0], of_all[k][1]);
     }
     const Distances plain = distances(of_all, share);
+    // Each set in turn: the other seven give the directions and the part that is farthest away.
     Sums largest_of{}, mean_of{};
     for (int set = 0; set < independent_sets; ++set) {
         Chromaticity unused;
@@ -129,7 +137,8 @@ ColourSpread colour_spread(const std::vector<ColourSums>& parts, const std::vect
         double farthest = -1, shares = 0;
         for (std::size_t k = 0; k < lit.size(); ++k) {
             const double away = std::hypot(others[k][0], others[k][1]);
-            // What the set by itself would have found, to first order (the jackknife's pseudo-value), along the others' direction
+            // The set's value to first order is the jackknife's pseudo-value n x_all - (n - 1) x_others, projected on the others'
+            // direction.
             double own = 0;
             for (std::size_t i = 0; i < 2 && away > 0; ++i)
                 own += (independent_sets * of_all[k][i] - (independent_sets - 1) * others[k][i]) * others[k][i] / away;
@@ -144,7 +153,7 @@ ColourSpread colour_spread(const std::vector<ColourSums>& parts, const std::vect
     }
     spread.largest = with_excess(largest_of, plain.largest);
     spread.mean = with_excess(mean_of, plain.mean);
-    // Parts that may be on the other side of the limit: by how much the figures would then differ.
+    // The error includes by how much the figures would change if a part that may be on the other side of the limit were there.
     for (std::size_t k = 0; k < parts.size(); ++k) {
         if (all[k].sure) continue;
         const std::vector<std::size_t> other = lit_parts(k);

@@ -1,4 +1,4 @@
-// A panel that shows something, kept with its tables. Floor 3.
+// A panel image together with its summed-area tables. Floor 3.
 #pragma once
 #include "analysis/core/subject.h"
 #include "engine/estimator/summed_panel.h"
@@ -7,7 +7,7 @@
 
 namespace lfdsim {
 
-/// A panel image with its tables.
+/// A panel image and its tables, which refer to it.
 class ShownPanel {
   public:
     ShownPanel(Texels, int threads);
@@ -18,7 +18,8 @@ class ShownPanel {
     SummedPanel summed_;
 };
 
-/// The elemental images of a scene as the display's panel shows them. Throws Stopped.
+/// Returns the elemental images of a scene as the display's panel shows them, decoded to linear light. Throws Stopped if the job
+/// is cancelled.
 std::unique_ptr<ShownPanel> elemental_panel(const Display&, const Geometry&, const ContentScene&, int threads, const Job&);
 
 }  // namespace lfdsim

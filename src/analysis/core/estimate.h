@@ -1,4 +1,4 @@
-// Figures found with independent random numbers, and the errors to state. Floor 3.
+// Figures from independent random numbers, and their stated errors. Floor 3.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -10,13 +10,15 @@
 
 namespace lfdsim {
 
+/// A figure and its stated error. NaN: undefined, or not stated.
 struct Estimate {
     double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();  // covers the true value in 95 of 100 cases
 };
 
-/// The estimate from two to eight values: the mean, and Student's factor for 95 % times its standard error, plus `precision`, the
-/// error of each.
+/// Returns the estimate from two to eight independent values: their mean, and as error `precision` + t s/sqrt(n), with s the
+/// values' standard deviation, t Student's factor for 95 % and n - 1 degrees of freedom, and `precision` the error of each value
+/// by itself.
 inline Estimate estimate(std::span<const double> found, double precision = 0) {
     constexpr std::array<double, 9> student{0, 0, 12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36};
     const double n = double(found.size());
@@ -29,16 +31,17 @@ inline Estimate estimate(std::span<const double> found, double precision = 0) {
 /// The number of independent sets of random numbers with which a figure is measured.
 inline constexpr int independent_sets = 8;
 
-/// A figure of all sets together and its error, by the jackknife: figure(k) is that of all sets but k, figure(-1) that of all of
-/// them. It may be any smooth function of sums over the sets. Where it is not finite the error is NaN.
+/// Returns a figure of all sets together and its error by the jackknife, t sqrt((n - 1)/n sum (x_k - mean)^2) with t = 2.365 for
+/// n = 8 sets: x_k = figure(k) is the figure of all sets but k, figure(-1) that of all of them. The figure may be any smooth
+/// function of sums over the sets. If the error is not finite it is NaN.
 Estimate jackknife(const std::function<double(int without)>& figure);
 
 /// Sums of a quantity over each of the independent sets of lines of sight.
 using Sums = std::array<double, independent_sets>;
-/// Over all sets, or all but one.
+/// Returns the sum over all sets, or over all but one.
 double total(const Sums&, int without = -1);
 
-/// The number of the n-th set of random numbers, different for each render.seed.
+/// Returns the number of the n-th set of random numbers for a render.seed, for even_choices().
 std::uint32_t set_number(std::int64_t seed, int n);
 
 }  // namespace lfdsim

@@ -13,15 +13,16 @@
 namespace lfdsim {
 namespace {
 
+/// Traces a ray to the panel; the point is relative to where the base lens's axis meets it. `raised`: the base lens's height over
+/// its lattice position, mm.
 optics::PanelPoint<double> trace(const optics::TracedDisplay<double>& scene, const optics::Extent<double>& extent,
                                  const optics::Ray<double>& ray, double raised) {
-    const optics::PanelBase<double> base{0, 0, 0, 0,
-                                         raised};  // the point is then relative to where the base lens's axis meets the panel
+    const optics::PanelBase<double> base{0, 0, 0, 0, raised};
     return optics::trace_any<double>(scene, extent, base, ray, true);
 }
 
-/// Whether a line in a glass surround meets a lens, and the first that it meets. In `clear` all glass is lenses; in `plate` what is
-/// not flat. In the array's axes, from the base lens's, z from the panel.
+/// Returns whether a line in a glass surround meets a lens, and its cell. In `clear` all glass is lenses; in `plate` a lens is
+/// where the surface is not flat. The ray is in the array's frame, from the base lens's axis, z from the panel.
 bool first_lens(const optics::TracedDisplay<double>& scene, const optics::Extent<double>& extent, const optics::Ray<double>& ray,
                 optics::Cell<double>& cell) {
     optics::GlassRays<double> rays{ray.at, ray.to, {0, 0}, false, false};
@@ -77,12 +78,14 @@ Sight EyeRays::look(const Vec3d& eye, const Choice& choice) const {
 
 Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
     const Lattice<double>& lattice = scene_.lattice;
+    // The lens: a number in [-1, 1] chooses one of the columns, or rows, with equal probability.
     const auto number = [&](std::size_t k) {
         return std::min(std::floor((0.5 + 0.5 * choice[4 + k]) * lattice.count[k]), lattice.count[k] - 1);
     };
     const Place axis = optics::axis_in_array(lattice, optics::Cell<double>{number(0), number(1)});
     Place moved{0, 0};
-    if (scene_.has_diffuser) {  // how far the diffuser shifts the line through the lens's axis
+    // With a diffuser, the displacement that it gives the line through the lens's axis, from its plane down to the vertex plane
+    if (scene_.has_diffuser) {
         const Vec3d centre = point(axis.x, axis.y), to = normalised(minus(centre, eye));
         const optics::Vec3<double> turned =
             optics::scatter(scene_, optics::Vec3<double>{to[0], to[1], to[2]}, choice[2], choice[3]);
@@ -92,13 +95,17 @@ Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
                                      down * (turned.y / turned.z - to[1] / to[2]));
         if (lattice.strips) moved.y = 0;
     }
+    // The position in the cell, less the displacement, cyclically within the cell: the line then meets the lens at the position
+    // chosen.
     const auto in_cell = [&](std::size_t k, double by) {
         const double place = 0.5 * choice[k] - by / lattice.pitch[k];
         return lattice.pitch[k] * (place - std::floor(place + 0.5));
     };
     Place place{in_cell(0, moved.x), in_cell(1, moved.y)};
-    if (lattice
-            .hexagonal) {  // such rectangles cover the plane as the hexagons do: what is outside of this one belongs to a neighbour
+    // The rectangles p by p_y about hexagons' axes cover the plane as the hexagons do: a position outside of this hexagon lies in
+    // a
+    // neighbouring one, and is taken relative to that.
+    if (lattice.hexagonal) {
         const Place centre = optics::axis_of(lattice, optics::cell_at(lattice, place.x, place.y));
         place = {place.x - centre.x, place.y - centre.y};
     }
@@ -118,7 +125,7 @@ int EyeRays::more_for(const Vec3d& eye) const {
 }
 
 Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) const {
-    // Where the line crosses the first plane, in the array's frame
+    // The point where the line crosses the first plane, in the array's frame
     const double up = (start_z_ - at[2]) / to[2];
     const Lattice<double>& lattice = scene_.lattice;
     const auto [x0, y0] = optics::to_array(lattice, at[0] + up * to[0] - lattice.offset[0], at[1] + up * to[1] - lattice.offset[1]);
@@ -129,23 +136,26 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         base_axis = {vertex.x, vertex.y};
         raised = vertex.z;
     }
+    // The tracer's ray starts relative to the base lens's axis, its direction in the display's frame.
     optics::Ray<double> ray{{x0 - base_axis.x, y0 - base_axis.y, 0}, {to[0], to[1], to[2]}};
     if (scene_.has_diffuser) ray.to = optics::scatter(scene_, ray.to, a, b);
     if (!(ray.to.z < 0)) return {};
     const optics::Extent<double> extent{-base_.i, lattice.count[0] - 1 - base_.i, -base_.j, lattice.count[1] - 1 - base_.j};
-    // The point where the line would reach a height, from the base lens in the array's frame
+    // Returns the point where the line would reach the height z without the lenses, in the array's frame from the base lens's
+    // axis.
     const auto come_down_to = [&](double z) {
         const double fall = (z - start_z_) / ray.to.z;
         const auto [dx, dy] = optics::to_array(lattice, fall * ray.to.x, fall * ray.to.y);
         return std::array{ray.at.x + dx, ray.at.y + dy};
     };
-    if (stop_first_) {  // most lines end there
+    if (stop_first_) {  // most lines end at the stop, and need not be traced then
         const auto [x, y] = come_down_to(scene_.stop_z);
         if (!optics::passes_stop(scene_, extent, x, y)) return {};
     }
     const optics::PanelPoint<double> end = trace(scene_, extent, ray, raised);
     if (!end.alive || !(end.weight > 0)) return {};
 
+    // The end on the panel, in mm from its centre; rows count downwards.
     const Vec3d base = point(base_axis.x, base_axis.y);
     const double x = base[0] + end.column / scene_.pixels_per_mm, y = base[1] - end.row / scene_.pixels_per_mm;
     const bool beside =

@@ -11,29 +11,30 @@ namespace lfdsim {
 
 /// The requirements of a measure.
 struct MeasureNeeds {
-    bool scene = false;         // that the display shows
-    bool point_images = false;  // made by each lens, as by all but pinholes
+    bool scene = false;         // a scene that the display shows
+    bool point_images = false;  // images of points by each lens, which all but pinholes form
 };
 
+/// A measure of `lfdsim analyze`.
 struct Measure {
-    std::string_view name;    // of the command line and of the files
+    std::string_view name;    // on the command line and of its files
     std::string_view title;   // "Field of view"
-    std::string_view says;    // what it means, in a sentence
-    std::string_view source;  // where its definition comes from
-    /// About how long it takes, in pictures of the camera's size; the job's advance() adds up to as many.
+    std::string_view says;    // its meaning, in a sentence
+    std::string_view source;  // the origin of its definition
+    /// Returns about how long it takes, in pictures of the camera's size; the job's advance() adds up to about as many.
     std::int64_t (*steps)(const Subject&);
-    /// Throws InputError for options that do not suit the display, Stopped where the job is cancelled.
+    /// Measures. Throws InputError for options that do not suit the display, and Stopped if the job is cancelled.
     Result (*run)(Subject&, Job&);
     MeasureNeeds needs = {};
 };
 
-/// Why a display lacks what a measure needs, if it does.
+/// Returns why a display lacks what a measure needs; nothing if it does not.
 std::optional<Problem> refusal(const Measure&, const Display&);
 
-/// All measures, in the order of the report.
+/// Returns all measures, in the order of the report.
 std::span<const Measure> measures();
 
-/// Throws InputError that lists the names.
+/// Returns a measure by its name. Throws InputError, which lists the names, if there is none.
 const Measure& measure_named(std::string_view name);
 
 }  // namespace lfdsim

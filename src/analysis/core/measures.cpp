@@ -1,3 +1,5 @@
+// The table of all measures.
+
 #include "analysis/core/measure.h"
 #include "analysis/crosstalk/crosstalk.h"
 #include "analysis/fov/fov.h"

@@ -11,8 +11,8 @@ MetPlaces::MetPlaces(const LineSets& lines, std::size_t paths, const Look& look)
         const std::vector<Choice>& choices = lines.sets()[k];
         met_[k].reserve(2 * choices.size());
         for (std::size_t path = 0; path < paths; ++path) {
-            // If the lines of a set are not divisible by the number of paths, some paths have a line more, which then counts for
-            // less.
+            // Each path takes consecutive lines of the set. If their number is not divisible by that of the paths, some paths
+            // have a line more, which then counts for less.
             const std::size_t from = choices.size() * path / paths, to = choices.size() * (path + 1) / paths;
             const double each = double(choices.size()) / double(paths * (to - from));
             for (std::size_t n = from; n < to; ++n)

@@ -12,7 +12,7 @@ void Parts::run(int n, const std::function<void(int)>& part) {
         tbb::parallel_for(0, n, [&](int k) {
             if (job_.cancelled()) return;
             part(k);
-            const std::int64_t done = ++done_;  // each number once, so that what is reported adds up to all steps
+            const std::int64_t done = ++done_;  // each number once, so that what is reported adds up to exactly `steps`
             job_.advance(steps_ * done / count_ - steps_ * (done - 1) / count_);
         });
     });
@@ -21,7 +21,8 @@ void Parts::run(int n, const std::function<void(int)>& part) {
 
 std::int64_t pictures_worth(const Subject& s, std::int64_t rays) {
     const std::array<std::int64_t, 2>& size = s.display().camera.resolution;
-    return std::max<std::int64_t>(1, 4 * rays / (size[0] * size[1]));  // a ray alone takes as long as some four pixels
+    return std::max<std::int64_t>(1,
+                                  4 * rays / (size[0] * size[1]));  // a single ray takes as long as about four pixels of a picture
 }
 
 }  // namespace lfdsim

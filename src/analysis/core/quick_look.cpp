@@ -20,16 +20,17 @@ namespace {
 
 constexpr int lines_of_lens = 1024, lines_of_screen = 4096, lines_of_waves = 16384, rays_of_lens = 32, fan_of_lens = 65;
 constexpr double middle_share = 0.95;
-constexpr int fewest = 16;               // lines that tell anything
-constexpr std::uint32_t most_sets = 16;  // of as many lines, where few get through
+constexpr int fewest = 16;               // lines that are needed for a figure
+constexpr std::uint32_t most_sets = 16;  // of as many lines each, if few get through
 
+/// Returns an eye at the camera's distance, display frame; nothing if that is inside the display.
 std::optional<Vec3d> eye_before(const Display& d, const Geometry& g, double x = 0) {
     const double distance = eye_distance_mm(d);
     if (!(distance > nearest_eye_mm(g))) return {};
     return Vec3d{x, 0, distance};
 }
 
-/// The width that holds the middle of places, as if they lay evenly over it.
+/// Returns the width that holds the middle 95 % of positions, over 0.95: exact for evenly spread ones. NaN for too few.
 double even_width(std::vector<double>& places) {
     if (places.size() < fewest) return nan;
     std::ranges::sort(places);
@@ -48,8 +49,8 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
     if (!eye) return {};
     const Lattice<double>& l = g.lattice;
     const std::size_t axis = !l.strips && std::abs(l.cos_turn) < std::abs(l.sin_turn) ? 1 : 0;
-    // The line from the eye through the nodal points of the lens at C ends on the panel at e C, from where the display's axis meets
-    // it.
+    // The line from the eye through the nodal points of the lens at C meets the panel at e C, from where the display's axis meets
+    // it. The part seen is measured from there.
     const double e = 1 + g.gap_mm / ((*eye)[2] - g.rear_principal_mm);
     const optics::Vec2<double> offset = optics::to_array(l, l.offset[0], l.offset[1]);
     const auto along = [&](const optics::Vec2<double>& p) { return axis == 0 ? p.x : p.y; };
@@ -63,8 +64,10 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
                 traced.push_back(along(optics::to_array(l, s.x - e * s.lens[0], s.y - e * s.lens[1])));
             const Vec3d aim = rays.aim(*eye, c);
             if (const auto line = paraxial.look(aim[0], aim[1], c[2], c[3]); line && line->through)
+                // Paraxial positions are from the array's centre, at the offset o: (seen + o) - e (axis + o)
                 theory.push_back(along(line->seen) - e * along(line->axis) - (e - 1) * along(offset));
         }
+    // Without diffuser an eye sees D |1 + g/E - g/f| under a lens (docs/model.md, "Advice").
     const double power = std::isfinite(g.focal_length_mm) ? g.gap_mm / g.focal_length_mm : 0, width = even_width(traced),
                  through = g.clear_aperture_mm[axis] * std::abs(e - power);
     if (std::isnan(width)) return {};
@@ -77,19 +80,21 @@ std::optional<TracedAndTheory> between_eyes_percent(const Display& as_made, cons
     const std::optional<Vec3d> eye = eye_before(d, g, -0.5 * usual_eyes_apart_mm);
     if (!eye) return {};
     const Lattice<double>& l = g.lattice;
+    // Both eyes fit into one viewing zone if it, E p'/g, is at least as wide as they are apart.
     const double image_mm = theory(d, g).along[0].elemental_pitch_mm / (l.strips ? l.cos_turn : 1);
     if (!(((*eye)[2] - g.rear_principal_mm) * image_mm / g.gap_mm >= usual_eyes_apart_mm)) return {};
     const EyeRays rays(d, g);
     const ParaxialLines paraxial(d, g, *eye);
     const Pickup pickup(d, g);
     const double per_mm = (pickup.scale - 1) / g.gap_mm;  // 1/D' of the viewer that the elemental images are made for
-    // Light of the own eye's image and of the other eye's.
+    // The light intended for the eye itself and for the other eye.
     struct CrosstalkSums {
         double own = 0, other = 0;
         int lines = 0;
         double percent() const { return own > 0 ? 100 * other / own : other > 0 ? infinity : nan; }
     } traced, in_theory;
-    // A viewer at x is meant to see the slope x/D' of the lines through the lenses, counted from the screen's middle.
+    // A line of slope m through x in the plane of H' is intended for viewers at the slope m + x/D', counted from the screen's
+    // middle; for the left eye, which looks here, if that is negative.
     const auto add = [&](CrosstalkSums& light, double x, double y, double much) {
         const NodalLine line = pickup.line(x, y);
         if (!line.owned) return;
@@ -112,6 +117,8 @@ std::optional<TracedAndTheory> between_eyes_percent(const Display& as_made, cons
 
 std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm) {
     if (d.lens.type() == LensType::pinhole) return {};
+    // Rays of the point on the axis: fans up to the rims for the full width, and a bundle of equal light for the variance. In
+    // round lenses such rays stay in planes through the axis, so that each counts as a ray of the fan, too.
     const LensTrace lens(d, g);
     Fans rims = fans(lens, {0, 0}, fan_of_lens);
     std::vector<FanRay> fan = std::move(rims.meridional), light;
@@ -126,7 +133,7 @@ std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm
             if (!(r <= stop_mm)) continue;
             light.push_back({ray.x, ray.mx});
             if (!(r > 0)) continue;
-            const double out = (ray.x * ray.mx + ray.y * ray.my) / r;  // rays of a point on the axis stay in planes through it
+            const double out = (ray.x * ray.mx + ray.y * ray.my) / r;  // slope in the plane through the axis
             fan.insert(fan.end(), {{r, out}, {-r, -out}});
         }
     }
@@ -134,7 +141,8 @@ std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm
     const double L = theory(d, g).central_depth_mm, per_mm = std::isinf(L) ? 0 : 1 / L,
                  pixel_slope = d.panel.pixel_pitch_mm / g.gap_mm;
     double squares = 0, from = infinity, to = -infinity;
-    for (const FanRay& line : light) {  // over its depth z a ray passes at x/z + m
+    // At depth z a ray is at x + m z; over z, in the central depth plane, at x/L + m. There the image of a pixel is a/g wide.
+    for (const FanRay& line : light) {
         const double at = line.at * per_mm + line.slope;
         squares += at * at;
     }
@@ -156,9 +164,10 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     const bool near = eye_distance_mm(d) < near_eye_mm;
     const std::optional<Vec3d> eye = eye_before(d, g, near ? 0 : -0.5 * usual_eyes_apart_mm);
     if (!eye || d.panel.subpixels == SubpixelLayout::none) return {};
+    // Red, and blue, less the luminance
     constexpr ChannelWeights mixtures[] = {{1 - luminance_weights[0], -luminance_weights[1], -luminance_weights[2]},
                                            {-luminance_weights[0], -luminance_weights[1], 1 - luminance_weights[2]}};
-    // A beat by theory and the traced light's sum at its frequency.
+    // A wave by theory, and the sum of the traced light times exp(-2 pi i f.r).
     struct BeatSum {
         Beat beat;
         WhitePanel white;
@@ -170,7 +179,7 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
             waves.push_back({*beat, WhitePanel(d.panel, weights)});
     if (waves.empty()) return {};
 
-    // Where the eye is focused a line from any place in its pupil meets the line from the pupil's middle.
+    // A line from any point of the pupil meets the line from the pupil's middle where the eye is focused.
     const double away = (*eye)[2] - g.vertex_plane_mm, focused = g.focus_distance_mm;
     const double pupil = d.camera.pupil_diameter_mm.value_or(near ? usual_pupil_mm : 0);
     const EyeRays rays(d, g);
@@ -178,6 +187,7 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     std::uint64_t line = 0;
     for (const Choice& c : even_choices(lines_of_waves)) {
         const Vec3d at = rays.aim(*eye, c);
+        // The pupil's points are uniform over its disk.
         const double radius = 0.5 * pupil * std::sqrt(counted_random(line++)), turn = 2 * pi * counted_random(line++);
         const double x = (*eye)[0], to_focus = focused / away;
         const Vec3d in_pupil{x + radius * std::cos(turn), radius * std::sin(turn), (*eye)[2]},
@@ -194,6 +204,8 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     if (!(light > 0)) return {};
     std::optional<ColourWave> strongest;
     for (const BeatSum& w : waves) {
+        // The contrast of a wave is twice the amplitude of its Fourier component, over the mean. Where the period is more than
+        // twice the screen's width, the screen has one tint, whose contrast is the mean itself.
         const bool uniform = period_mm(w.beat.frequency) > 2 * std::min(g.panel_width_mm, g.array_width_mm);
         const double fine = mm_per_degree(away) / period_mm(w.beat.frequency),
                      contrast = (uniform ? 1 : 2) * std::abs(w.sum) / light;

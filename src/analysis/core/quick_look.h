@@ -1,7 +1,7 @@
-// What some thousand rays tell of a display within milliseconds: how much one eye sees at once, how sharp one lens is, which
-// colours a white screen shows. Floor 3.
-//
-// They decide whether there is something to say (analysis/core/verdicts.h). docs/model.md, "Advice".
+// Properties of a display that some thousand rays show within milliseconds: how much of the panel one eye sees at once, how sharp
+// a lens is, which colours a white screen shows. Floor 3.
+
+// They decide the verdicts of analysis/core/verdicts.h. docs/model.md, "Advice".
 #pragma once
 #include "analysis/moire/moire_theory.h"
 #include "analysis/spots/spot_depth.h"
@@ -13,7 +13,7 @@
 
 namespace lfdsim {
 
-/// Traced, and by paraxial theory along the same lines of sight.
+/// A figure by tracing, and by paraxial theory along the same lines of sight.
 struct TracedAndTheory {
     double traced, theory;
 };
@@ -22,40 +22,40 @@ struct TracedAndTheory {
 /// axis, at the camera's distance; along that axis of the array that is nearer to the line through a viewer's eyes.
 struct SeenAtOnce {
     double image_mm;              // p', the elemental image's width
-    TracedAndTheory width_mm;     // that holds the middle 95 % of the light, over 0.95
-    double through_apertures_mm;  // in theory, without the diffuser: D |1 + g/E - g/f|
+    TracedAndTheory width_mm;     // of the part that holds the middle 95 % of the light, over 0.95
+    double through_apertures_mm;  // D |1 + g/E - g/f|: in theory, without the diffuser
 };
-/// Computes that width; none where the camera is inside the display, or where no light gets through.
+/// Returns that width; nothing if the camera is inside the display, or if too little light gets through.
 std::optional<SeenAtOnce> seen_at_once(const Display&, const Geometry&);
 
-/// Between a viewer's eyes, mm.
+/// The usual distance between a viewer's eyes, mm.
 inline constexpr double usual_eyes_apart_mm = 65;
 
-/// The crosstalk between the eyes of a viewer in front of the screen's middle, at the camera's distance: the light through lenses
-/// that is meant for the other eye over that meant for the eye itself, of elemental images made for that distance; per cent. None
-/// where the viewing zone does not contain both eyes.
+/// Returns the crosstalk, per cent, between the eyes of a viewer in front of the screen's middle, at the camera's distance: the
+/// light through lenses that is intended for the other eye over that intended for the eye itself, with elemental images made for
+/// that distance. Nothing if both eyes do not fit into the viewing zone, E p'/g wide, or if too little light gets through.
 std::optional<TracedAndTheory> between_eyes_percent(const Display&, const Geometry&);
 
-/// The light of the panel's point on a lens's axis, in images of a panel pixel at the same depth. The width of light that is
-/// unevenly spread is that of an even spread of the same variance.
+/// The width of the light of the panel point on a lens's axis, in images of a panel pixel at the same depth. Light that is not
+/// evenly spread has the width of an even spread of the same variance, sqrt(12) sigma.
 struct LensBlur {
-    double pixels, full_pixels;  // at the central depth plane: the light's width, and that of all rays to the very rims
-    SharpDepths sharp;           // by all rays
+    double pixels, full_pixels;  // in the central depth plane: that width, and the full width of all rays
+    SharpDepths sharp;           // the depth of field by the pixel, by all rays
 };
-/// The blur of a lens on the axis, by rays no farther from the axis than `stop_mm` in the principal plane. None of pinholes, and
-/// where no light gets through.
+/// Returns the blur of a lens on its axis, by the rays no farther than `stop_mm` from the axis in the principal plane. Nothing
+/// for pinholes, and if too little light gets through.
 std::optional<LensBlur> blur(const Display&, const Geometry&, double stop_mm = infinity);
 
-/// The strongest wave of colours that a viewer's left eye, or before near-eye displays the eye on the axis, sees on a white screen.
-/// Contrast is that of red, or blue, less luminance.
+/// The strongest wave of colours on a white screen that a viewer's left eye sees, or, for near-eye displays, the eye on the axis.
+/// Its contrast is that of red, or blue, less the luminance.
 struct ColourWave {
-    double period_mm;  // infinite: the screen has one colour all over
-    double direction_deg, cycles_per_degree;
-    double contrast;              // traced, with the eye's pupil
-    double visible;               // the same after the eye's filter for colours
-    double turned_per_degree[2];  // periods by which a diffuser's degree moves the wave, along the display's x and y
+    double period_mm;                         // infinite: the screen has one colour all over
+    double direction_deg, cycles_per_degree;  // of the wave's normal; cycles as the eye sees them
+    double contrast;                          // traced, through the eye's pupil
+    double visible;                           // contrast after the eye's filter for colours
+    double turned_per_degree[2];  // periods by which each degree of a diffuser's angle moves the wave, along the display's x and y
 };
-/// The strongest colour wave; none without subpixels, and where theory has none.
+/// Returns the strongest colour wave; nothing without subpixels, and if theory has none.
 std::optional<ColourWave> colour_wave(const Display&, const Geometry&);
 
 }  // namespace lfdsim

@@ -40,6 +40,7 @@ void Curves::add(std::string label, std::string column, std::vector<double> y) {
 }
 
 void Result::add(const std::string& path, const FigureValue& value) {
+    // Objects along the path are made as needed.
     Json* object = &figures;
     std::size_t start = 0;
     for (std::size_t dot; (dot = path.find('.', start)) != std::string::npos; start = dot + 1)

@@ -40,6 +40,7 @@ double Subject::white_field(const Job& job) {
     for (std::int64_t row = 0; row < white.rows(); ++row)
         for (std::int64_t k = 0; k < white.columns(); ++k)
             for (int c = 0; c < 3; ++c) white.row(row)[4 * k + c] = 1;
+    // The view from the front, as far as it shows the screen
     const ShownPanel panel(std::move(white), threads());
     const Display seen = seen_from(display_, 0, 0);
     const Region screen = seen_screen(seen, geometry_);
@@ -49,6 +50,7 @@ double Subject::white_field(const Job& job) {
     how.crop = box;
     const Rendering r = render(seen, geometry_, panel.summed(), how, quiet);
     if (!r.complete) throw Stopped{};
+    // The mean over the pixels that see the screen
     double sum = 0;
     const Region part = screen.shifted(-box.x0, -box.y0);
     for (std::size_t k = 0; k < part.rows.size(); ++k)

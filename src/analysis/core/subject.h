@@ -1,4 +1,4 @@
-// What is measured: a display, what it shows, and how finely. Floor 3, public as a part of measure.h.
+// The subject of a measure: a display, what it shows, and options. Floor 3, public as a part of measure.h.
 #pragma once
 #include "base/job.h"
 #include "content/content.h"
@@ -13,48 +13,52 @@
 
 namespace lfdsim {
 
+/// Options of all measures.
 struct AnalysisOptions {
-    std::vector<double> angles_deg;  // of the views, rising; empty: see fov.h
-    std::vector<double> depths_mm;   // of the content in front of the vertex plane, rising; empty: see dof_depths.h
+    std::vector<double> angles_deg;  // of the views, ascending; empty: see fov.h
+    std::vector<double> depths_mm;   // of the content from the vertex plane towards the viewer, ascending; empty: see dof_depths.h
     std::optional<double> viewing_distance_mm =
         {};                       // of eyes from the panel; default: the camera's distance from the panel's centre
     double eye_distance_mm = 65;  // between a viewer's two eyes
-    double wavelength_nm = 550;
-    int threads = 0;          // 0: all
-    std::string device = {};  // of renderings, as RenderOptions has it
+    double wavelength_nm = 550;   // of the diffraction limits
+    int threads = 0;              // 0: one for each processor
+    std::string device = {};      // of renderings, as RenderOptions::device
 };
 
-/// Thrown where the caller cancels the work; nothing of the current measure is kept.
+/// Thrown if the caller cancels the work; nothing of the current measure is kept.
 struct Stopped {};
 
 class ShownPanel;  // elemental_panel.h
 
+/// A display under measurement, with its geometry and theory, and with what several measures need, which is computed once.
 class Subject {
   public:
-    /// A valid display; the scene may be absent, for measures that need none.
+    /// Throws InputError if the display is not valid. The scene may be absent, for measures that need none.
     Subject(Display, std::optional<ContentScene>, AnalysisOptions);
 
     const Display& display() const { return display_; }
     const Geometry& geometry() const { return geometry_; }
     const Theory& theory() const { return theory_; }
     const AnalysisOptions& options() const { return options_; }
-    /// Theory along one axis of the array.
+    /// Returns theory along one axis of the array, 0: x', 1: y'.
     const AxisTheory& theory(int axis) const { return theory_.along[std::size_t(axis)]; }
     int threads() const { return options_.threads; }
-    /// How its views are rendered; a crop may be added.
+    /// Returns how views are rendered; the caller may add a crop.
     RenderOptions rendering() const;
+    /// Returns the distance of eyes from the panel, mm: the option's, or the camera's.
     double viewing_distance_mm() const;
     bool has_scene() const { return scene_.has_value(); }
-    /// Throws InputError where there is none.
+    /// Returns the scene. Throws InputError if there is none.
     const ContentScene& scene() const;
 
-    /// The elemental images of the scene where the description puts it, as the panel shows them: computed at the first call, and
-    /// kept. Throws Stopped.
+    /// Returns the scene's elemental images, at the depth that the description states, as the panel shows them. They are computed
+    /// at the first call and kept. Throws Stopped.
     const SummedPanel& panel(const Job&);
 
-    /// Mean light that the camera, on axis, sees of the array's rectangle when the panel is white, over all three channels: lenses
-    /// in focus on subpixels show some of them alone. Simulated pictures are divided by it, so that light lost in lenses and gaps
-    /// does not count as unlikeness. More than 0. Throws Stopped.
+    /// Returns the mean light of the screen, over its pixels and all three channels, that the camera on axis sees of a white
+    /// panel; more than 0. It is over all channels since lenses in focus on subpixels show some of them alone. Simulated pictures
+    /// are divided by it, so that light lost in lenses and gaps does not count as unlikeness. Throws Stopped; InputError if no
+    /// light is seen.
     double white_field(const Job&);
 
   private:

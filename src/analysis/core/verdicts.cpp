@@ -16,17 +16,19 @@
 namespace lfdsim {
 namespace {
 
-constexpr double most_seen_share = 0.5;    // of an elemental image at once: beyond it no place shows one view alone
-constexpr double most_mixed_percent = 50;  // between the eyes: a third of the light
-constexpr double most_aberrated_percent = 15, most_more_percent = 10;  // of which aberration brings so much
+constexpr double most_seen_share = 0.5;    // of an elemental image at once: if an eye sees more, no position shows one view alone
+constexpr double most_mixed_percent = 50;  // between the eyes: a third of the light is wrong
+constexpr double most_aberrated_percent = 15,
+                 most_more_percent = 10;  // between the eyes, and how much of it at least is due to aberration
 constexpr double most_blur_pixels = 1.5;
-constexpr double most_on_borders = 0.1;         // of the panel's light, pixels whose centres lie on borders of elemental images
+constexpr double most_on_borders =
+    0.1;  // share of the panel's light whose pixels have their centres on borders of elemental images
 constexpr double most_visible_contrast = 0.05;  // of colours, after the eye's filter
 
-/// Three digits, without an exponent.
+/// Returns a number as text: three digits, without an exponent.
 std::string digits(double x) { return std::abs(x) < 1000 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x); }
 
-/// "12 mm in front of the lenses", or "at infinity".
+/// Returns a depth, mm from the lenses, as text: "12 mm in front of the lenses", or "at infinity".
 std::string place(double z) {
     return std::isinf(z) ? "at infinity"
                          : fmt::format("{} mm {} the lenses", digits(std::abs(z)), z < 0 ? "behind" : "in front of");
@@ -43,7 +45,8 @@ struct Stop {
     double radius_mm, light_share;
 };
 
-/// The widest stop with which a display is good, down to a fifth of the aperture.
+/// Returns the widest stop, down to a fifth of the aperture, with which good(radius) holds, to 1/64 of that range; nothing if it
+/// does not hold even with the narrowest. The light that a stop leaves is its area's, of strips its width's, share.
 template <class Good>
 std::optional<Stop> widest_stop(const Geometry& g, Good good) {
     const double all = 0.5 * widest_aperture_mm(g);
@@ -57,6 +60,7 @@ std::optional<Stop> widest_stop(const Geometry& g, Good good) {
     return Stop{least, g.lattice.strips ? share : share * share};
 }
 
+/// Returns the widest stop with which the light of a point is no wider than the image of a pixel.
 std::optional<Stop> stop_against_blur(const Display& d, const Geometry& g) {
     return widest_stop(g, [&](double radius) {
         const std::optional<LensBlur> b = blur(d, g, radius);
@@ -64,6 +68,7 @@ std::optional<Stop> stop_against_blur(const Display& d, const Geometry& g) {
     });
 }
 
+/// Returns the widest stop with which crosstalk between the eyes is at most 15 %.
 std::optional<Stop> stop_against_mixing(Display d, const Geometry& g) {
     return widest_stop(g, [&](double radius) {
         d.lens.stop_radius_mm = radius;
@@ -82,7 +87,7 @@ std::string stop_remedy(const Display& d, const std::optional<Stop>& stop) {
         stop->radius_mm, stop->radius_mm, 100 * stop->light_share);
 }
 
-/// The remedy that focuses lenses on the panel: another lens, or another gap where that is possible.
+/// Returns the remedy that focuses lenses on the panel, f = g: another lens, or another gap if that is possible.
 std::string focus_remedy(Display d, const Geometry& g) {
     std::string remedy = fmt::format("Lenses of a focal length of {:.4g} mm, the gap, would be focused on the panel", g.gap_mm);
     const double stronger = g.gap_mm / g.focal_length_mm;
@@ -97,6 +102,8 @@ std::string focus_remedy(Display d, const Geometry& g) {
     return remedy;
 }
 
+/// Returns the remedy for views that do not separate, by the first cause that applies: holes too wide, lenses out of focus, the
+/// diffuser, aberration.
 std::string separation_remedy(const Display& d, const Geometry& g, const Theory& t, const SeenAtOnce& seen) {
     const double most = most_seen_share * seen.image_mm;
     if (d.lens.type() == LensType::pinhole && seen.through_apertures_mm > most) {
@@ -120,7 +127,7 @@ std::string separation_remedy(const Display& d, const Geometry& g, const Theory&
     return "The lenses' aberration is the cause. " + stop_remedy(d, stop_against_blur(d, g));
 }
 
-/// Whether views separate at all.
+/// Judges whether views separate at all: an eye must see at most half of an elemental image at once.
 std::optional<std::string> on_separation(const Display& d, const Geometry& g, const Theory& t, const SeenAtOnce& seen) {
     if (!(seen.width_mm.traced > most_seen_share * seen.image_mm)) return {};
     const bool differ = std::abs(seen.width_mm.traced - seen.width_mm.theory) > 0.05 * seen.image_mm;
@@ -131,7 +138,7 @@ std::optional<std::string> on_separation(const Display& d, const Geometry& g, co
         separation_remedy(d, g, t, seen));
 }
 
-/// Whether a viewer's eyes see different views.
+/// Judges whether a viewer's eyes see different views.
 std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const SeenAtOnce& seen) {
     const std::optional<TracedAndTheory> mixed = between_eyes_percent(d, g);
     if (!mixed) return {};
@@ -142,6 +149,7 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
         return fmt::format(
             "the lenses' aberration mixes what {} should see: crosstalk is {:.3g} %, and {:.2g} % in theory without aberration. {}",
             eyes, mixed->traced, mixed->theory, stop_remedy(d, stop_against_mixing(d, g)));
+    // What an eye sees of the panel at once, projected through the lens to the eye's distance
     const double wide = seen.width_mm.traced / g.gap_mm * (eye_distance_mm(d) - g.rear_principal_mm);
     if (!(mixed->traced > most_mixed_percent && wide > usual_eyes_apart_mm)) return {};
     return fmt::format(
@@ -150,12 +158,14 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
         eyes, mixed->traced, digits(wide), digits(eye_distance_mm(d) * usual_eyes_apart_mm / wide), usual_eyes_apart_mm / wide);
 }
 
-/// Whether the lenses are as sharp as theory without aberration has them.
+/// Judges whether the lenses are nearly as sharp as without aberration.
 std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Theory& t) {
     const std::optional<LensBlur> b = blur(d, g);
     if (!b || !(b->pixels > most_blur_pixels)) return {};
     const double eye = eye_distance_mm(d);
-    const double L = std::abs(t.central_depth_mm) > 1000 * eye ? infinity : t.central_depth_mm;  // lenses focused on the panel
+    const double L = std::abs(t.central_depth_mm) > 1000 * eye
+                         ? infinity
+                         : t.central_depth_mm;  // practically infinite: lenses focused on the panel
     const auto wide = [&](double pixels) {
         const double slope = pixels * d.panel.pixel_pitch_mm / g.gap_mm;
         return std::isinf(L) ? fmt::format("{:.3g} degrees", std::atan(slope) / degree)
@@ -177,7 +187,7 @@ std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Th
         stop_remedy(d, stop_against_blur(d, g)));
 }
 
-/// The remedy that mixes the colours, found by trial: colours along the strips, strips that lean, a diffuser.
+/// Returns the remedy that mixes the colours, found by trial: colours along the strips, slanted strips, a diffuser.
 std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& wave) {
     const auto helps = [](const Display& changed) {
         if (!valid(changed)) return false;
@@ -190,13 +200,15 @@ std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& w
         if (helps(turned))
             return "A panel whose colours follow each other along the strips shows none (--set 'panel.subpixels=\"rgb_rows\"')";
     }
-    if (is_strips(d.array) && t.along[0].views > 2.5)  // two views part along upright columns
+    if (is_strips(d.array) && t.along[0].views > 2.5)  // the two views of upright strips would mix under slanted ones
         for (const double share : {1 / 6., 1 / 3.}) {
             Display leaning = d;
             leaning.array.slant_deg = std::atan(share) / degree;
             if (helps(leaning)) return fmt::format("Slant the strips (--set array.slant_deg={:.4g})", *leaning.array.slant_deg);
         }
-    // No more than a quarter of the field of view, or views mix as well; and no dark bands in place of coloured ones.
+    // A diffuser must take no more than a quarter of the field of view, or it mixes views as well, and must make no dark bands in
+    // place of coloured ones. It is tried at its present distance and near the lenses, with angles that move the wave by 1, 1.5
+    // and 2 periods.
     const double near = 0.5 * d.array.pitch_mm.least(), most = 0.25 * t.along[0].fov_deg;
     const auto bands = [](const Display& of) {
         const auto [across, up] = band_contrast(of, resolve(of));
@@ -221,7 +233,8 @@ std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& w
     return "Use smaller pixels, or lenses and a gap through which an eye sees more of the panel at once";
 }
 
-/// Moved by half a pixel, or with a row or column more, pixels stand beside the borders.
+/// Returns the remedy that keeps pixels' centres clear of borders, found by trial: the array moved by a part of a pixel, or a
+/// panel with a column or row more.
 std::string border_remedy(const Display& d) {
     const auto helps = [](const Display& changed) {
         return valid(changed) && share_on_borders(changed, resolve(changed)) < most_on_borders;
@@ -249,7 +262,7 @@ std::string border_remedy(const Display& d) {
     return remedy.empty() ? "Move the array (array.offset_mm), or use another pitch (array.pitch_mm)" : remedy;
 }
 
-/// Whether it is clear which lens shows which pixel.
+/// Judges whether it is clear to which lens each pixel belongs.
 std::optional<std::string> on_borders(const Display& d, const Geometry& g) {
     const double share = share_on_borders(d, g);
     if (!(share >= most_on_borders)) return {};
@@ -259,7 +272,7 @@ std::optional<std::string> on_borders(const Display& d, const Geometry& g) {
         100 * share, made_by_channel(d) ? "subpixels" : "pixels", border_remedy(d));
 }
 
-/// Whether a white screen is white.
+/// Judges whether a white screen is white.
 std::optional<std::string> on_colours(const Display& d, const Geometry& g, const Theory& t) {
     const std::optional<ColourWave> wave = colour_wave(d, g);
     if (!wave || !(wave->visible > most_visible_contrast)) return {};
@@ -283,7 +296,7 @@ std::vector<std::string> verdicts(const Display& d, const Geometry& g, const The
     add(on_borders(d, g));
     const std::optional<SeenAtOnce> seen = seen_at_once(d, g);
     const bool mixed = seen && add(on_separation(d, g, t, *seen));
-    if (!mixed) {  // else the rest follows from that
+    if (!mixed) {  // if views do not separate, the faults of eyes and blur follow from that
         if (seen) add(on_eyes(d, g, *seen));
         add(on_blur(d, g, t));
     }

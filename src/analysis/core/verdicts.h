@@ -1,4 +1,4 @@
-// What tracing says of a valid display that cannot do what it is meant for. docs/model.md, "Advice". Floor 3.
+// Verdicts on a valid display that cannot serve its purpose, by tracing. docs/model.md, "Advice". Floor 3.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
