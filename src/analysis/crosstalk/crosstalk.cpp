@@ -1,3 +1,5 @@
+// The measure of crosstalk, and crosstalk between views. docs/measures.md, "Crosstalk".
+
 #include "analysis/crosstalk/crosstalk.h"
 
 #include "analysis/crosstalk/crosstalk_eyes.h"
@@ -9,7 +11,6 @@
 #include <cmath>
 #include <numeric>
 
-// What one eye sees of neighbouring views. docs/measures.md, "Crosstalk".
 namespace lfdsim {
 namespace crosstalk {
 namespace {
@@ -24,20 +25,21 @@ constexpr const char* definitions[][2] = {
      "IDMS (SID), chapter 17: 100 (L_KW - L_KK) / (L_WK - L_KK), first letter the intended view, second the others; W white, K "
      "black."}};
 
-/// Crosstalk where the middle of the screen is looked at, and by theory.
+/// The crosstalk of the innermost view, seen from its middle, measured and by theory.
 struct Middle {
     Crosstalk measured, theory;
 };
 
-/// The crosstalk of several views; undefined where there are none.
+/// The crosstalk of several views, each seen from its middle; undefined if there are none.
 struct ViewsCrosstalk {
-    std::vector<double> view{0};               // their middles, in steps
-    std::vector<Crosstalk> all{{}}, next{{}};  // of all other views together, and of one neighbour, their mean
+    std::vector<double> view{0};               // the views' middles, in steps
+    std::vector<Crosstalk> all{{}}, next{{}};  // by all other views together, and by one neighbour (the mean of both)
     Crosstalk worst;
     std::size_t innermost = 0, worst_at = 0;
     Middle middle, middle_of_other;
 
-    /// The one at a share of all, from the least to the worst. NaN, where there is no light, counts as the worst.
+    /// Returns the number of the view below which a share of all views lies, in the order of their crosstalk: 0.5 the median, 1
+    /// the worst. NaN, where there is no light, counts as the worst.
     std::size_t ranked(double share) const {
         std::vector<std::size_t> order(all.size());
         std::iota(order.begin(), order.end(), std::size_t(0));
@@ -47,8 +49,8 @@ struct ViewsCrosstalk {
     }
 };
 
-/// The worst of many noisy figures is too great by chance. It says where to look, and other lines of sight how much is there; what
-/// it exceeds those by is part of the error, as another may be the worst.
+/// Measures the worst view with other lines of sight: the worst of many noisy figures is too great by chance. The error includes
+/// the excess of the choice over the new figure, since another view may be the worst.
 Crosstalk measured_anew(const Eyes& eyes, double view, const Crosstalk& chosen) {
     const MeantLight light = eyes.light(eyes.at(view * eyes.view_mm(), Eyes::Lines::anew), eyes.shown);
     Crosstalk anew = crosstalk_of(light, eyes.of_view(light, view));
@@ -56,13 +58,15 @@ Crosstalk measured_anew(const Eyes& eyes, double view, const Crosstalk& chosen) 
     return anew;
 }
 
+/// Returns the innermost view's crosstalk, with content as on `panel`, for an eye that receives `light`, by theory `theory`.
 Middle at_middle_view(const Eyes& eyes, const MeantPanel& panel, const MeantLight& light, const MetPlaces& theory) {
     const double view = eyes.views.innermost();
     const MeantLight by_theory = eyes.theory_light(theory, panel);
     return {crosstalk_of(light, eyes.of_view(light, view)), crosstalk_of(by_theory, eyes.of_view(by_theory, view))};
 }
 
-/// The eye in the middle of each whole view in turn, most_views of them at most, evenly; the innermost one the finest.
+/// Measures the crosstalk of at most most_views views, evenly chosen, by an eye in the middle of each in turn; the innermost one
+/// with the most lines, and by theory.
 ViewsCrosstalk look_at_views(Eyes& eyes) {
     ViewsCrosstalk views;
     views.view = eyes.views.middles(most_views);
@@ -94,6 +98,7 @@ ViewsCrosstalk look_at_views(Eyes& eyes) {
     return views;
 }
 
+/// Adds the figures of the innermost view, for content as described and for the other sampling.
 void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling sampling, Result& result) {
     const auto line = [](const std::string& label, const Middle& found) {
         return FigureLine{.label = label,
@@ -114,6 +119,7 @@ void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling s
     result.add("between_views.other_sampling.theory_percent", theory_figure(views.middle_of_other.theory));
 }
 
+/// Adds the crosstalk between views: figures, and a table of all views.
 void between_views(const Subject& s, Eyes& eyes, Result& result) {
     Json& json = result.figures["between_views"];
     json["view_step_mm"] = eyes.view_mm();
@@ -138,10 +144,12 @@ void between_views(const Subject& s, Eyes& eyes, Result& result) {
     result.tables.push_back(std::move(table));
 }
 
-/// The eye moving past the innermost views. `spread`: how many views it gathers at once.
+/// Adds curves of the share of each of the innermost views in the light of an eye that moves past them. `spread`: the number of
+/// views from which an eye receives light at once.
 void curves_of_views(Eyes& eyes, double spread, Result& result) {
     constexpr int shown = 2;
     const double reach = shown + 1 + std::min(spread, 100.);  // in views
+    // Eye positions reach one view beyond those shown, and as far as their light spreads.
     std::vector<double> places, theory(places_of_curves);
     for (int n = 0; n < places_of_curves; ++n) places.push_back(eyes.view_mm() * reach * (2. * n / (places_of_curves - 1) - 1));
     const double first = eyes.views.innermost() > 0 ? eyes.views.innermost() - shown : -shown;

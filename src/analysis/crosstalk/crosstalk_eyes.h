@@ -1,4 +1,4 @@
-// What crosstalk is measured with: eyes that look along lines of sight, and what theory says they see. Floor 3.
+// The eyes with which crosstalk is measured: what they see along lines of sight, and by theory. Floor 3.
 #pragma once
 #include "analysis/core/parallel.h"
 #include "analysis/crosstalk/crosstalk.h"
@@ -12,7 +12,7 @@
 namespace lfdsim {
 
 namespace crosstalk {
-inline constexpr int lines_a_set = 512, fine_lines_a_set = 16384, lines_of_theory = 8192;  // and as many mirrored
+inline constexpr int lines_a_set = 512, fine_lines_a_set = 16384, lines_of_theory = 8192;  // in each set, and as many mirrored
 inline constexpr int most_views = 61, places_of_curves = 97, heads = 61, halvings = 3, limits = 6;
 
 inline const char* name_of(ContentSampling sampling) { return sampling == ContentSampling::subpixel ? "subpixel" : "pixel"; }
@@ -20,7 +20,7 @@ inline const char* made_for(ContentSampling sampling) {
     return sampling == ContentSampling::subpixel ? "content for each subpixel" : "content for whole pixels";
 }
 
-/// A view's light, or an eye's, and that which it should not see.
+/// The light that a view, or an eye, should show, and the light that it should not.
 struct Leak {
     LightPart signal, leak;
 };
@@ -29,15 +29,16 @@ inline constexpr const char* left_to_rounding =
     "centres of pixels lie on the border of two lenses' elemental images: rounding decides to which lens, and so to which eye, "
     "they are assigned; lfdsim check states the remedy";
 
+/// Returns crosstalk, per cent, with its error as a figure, or with the reason why it has none.
 inline FigureValue figure_of(const Crosstalk& found) {
     return {std::vector{found.percent.value}, std::vector{found.percent.error}, found.left_to_rounding ? left_to_rounding : ""};
 }
 inline FigureValue theory_figure(const Crosstalk& c) { return {c.percent.value, c.left_to_rounding ? left_to_rounding : ""}; }
 
-/// Whether many lines of sight end where it is dark, or where a colour shines that is dim.
+/// Returns whether many lines of sight end on a dark part of the panel, or on a dim channel: means then need more lines.
 inline bool structured(const Subject& s) { return !shines_all_over(s.display().panel); }
 
-/// An eye level with the screen's middle, at the viewing distance, and the light of each view that reaches it.
+/// Eyes level with the screen's middle, at the viewing distance, and the light of each view that reaches them.
 class Eyes {
   public:
     Eyes(Subject& s, Job& job)
@@ -61,28 +62,36 @@ class Eyes {
         other.emplace(s.display(), s.geometry(), *other_sampling);
     }
 
-    enum class Lines { curve, fine, anew };  // anew: as fine, but with random numbers of their own
+    /// The lines of sight of a figure: few for curves, many for single figures (fine), and as many with other random numbers
+    /// (anew).
+    enum class Lines { curve, fine, anew };
+    /// Returns the points of the panel that an eye at x sees, mm to the right of the screen's middle.
     MetPlaces at(double x, Lines lines = Lines::curve) const {
         return paths_.look({x, 0, distance_}, lines == Lines::curve ? lines_ : lines == Lines::fine ? fine_ : anew_);
     }
+    /// Returns the light of these points by the slopes for which it is intended.
     MeantLight light(const MetPlaces& met, const MeantPanel& panel) const { return {met, paths_.weights(), panel}; }
+    /// Returns at() by theory, with paraxial lenses and light of all channels together.
     MetPlaces theory_at(double x, Lines lines) const {
         return theory_.look(x, lines == Lines::curve ? of_theory_curve_ : of_theory_);
     }
     MeantLight theory_light(const MetPlaces& met, const MeantPanel& panel) const { return {met, {luminance_weights}, panel}; }
 
+    /// Returns the distance between neighbouring views at the eye: (a/g) E, mm.
     double view_mm() const { return views.step_slope() * eye_mm; }
-    /// Light of the view whose middle, in steps, this is.
+    /// Returns the light of the view whose middle is at `middle` steps.
     LightPart view(const MeantLight& light, double middle) const {
         return light.between((middle - 0.5) * views.step_slope(), (middle + 0.5) * views.step_slope());
     }
+    /// Returns the light of a view, and that of all other views as its leak.
     Leak of_view(const MeantLight& light, double middle) const {
         Leak found{view(light, middle), light.all()};
         for (std::size_t k = 0; k < found.leak.light.size(); ++k) found.leak.light[k] -= found.signal.light[k];
         found.leak.open += found.signal.open;
         return found;
     }
-    /// The leak of the left (0) or right eye (1).
+    /// Returns the light of the left (0) or the right eye (1), intended for slopes below or above 0, and the other eye's as its
+    /// leak.
     static Leak of_side(const MeantLight& light, std::size_t side) {
         const LightPart left = light.between(-infinity, 0), right = light.between(0, infinity);
         return side == 0 ? Leak{left, right} : Leak{right, left};
@@ -92,10 +101,10 @@ class Eyes {
     double distance_;
 
   public:
-    double eye_mm;
-    MeantPanel shown;  // with the description's content
-    std::optional<ContentSampling> other_sampling;
-    std::optional<MeantPanel> other;
+    double eye_mm;                                  // E, of the eye from H'
+    MeantPanel shown;                               // the panel with content as described
+    std::optional<ContentSampling> other_sampling;  // the sampling that is not described, on panels with subpixels
+    std::optional<MeantPanel> other;                // the panel with content made by that
 
   private:
     MeantPanel pixels_;
@@ -115,7 +124,8 @@ inline Crosstalk crosstalk_of(const MeantLight& light, const Leak& found) {
     return crosstalk_of(found.leak, found.signal, light.missed());
 }
 
-/// Two eyes whose head moves, while the right half of what the panel shows stays meant for the right eye.
+/// Adds the crosstalk between two eyes whose head moves to the sides. The panel's picture does not change: content for slopes
+/// above 0 remains intended for the right eye.
 void between_eyes(const Subject&, Eyes&, Result&);
 
 }  // namespace crosstalk

@@ -1,3 +1,5 @@
+// Crosstalk between the eyes of a head that moves to the sides. docs/measures.md, "Crosstalk".
+
 #include "analysis/core/figure_json.h"
 #include "analysis/crosstalk/crosstalk_eyes.h"
 #include "analysis/fov/thresholds.h"
@@ -7,28 +9,29 @@
 #include <array>
 #include <cmath>
 
-// Crosstalk between the eyes. docs/measures.md, "Crosstalk".
 namespace lfdsim::crosstalk {
 namespace {
 
-constexpr double tolerable_percent = 10;  // of the head's range
+constexpr double tolerable_percent = 10;  // crosstalk up to which a head position counts
 
 /// Crosstalk of the left (0) and the right eye (1) of one head.
 using BothEyes = std::array<Crosstalk, 2>;
 
-/// Between the eyes of heads at several places.
+/// The crosstalk between the eyes of heads at several positions.
 struct Heads {
-    double apart;
-    std::vector<double> places;
+    double apart;                // distance between the eyes, mm
+    std::vector<double> places;  // of the heads, mm to the right of the screen's middle, ascending and symmetric
     std::vector<BothEyes> found;
-    BothEyes of_other;  // in the middle, with the other sampling
+    BothEyes of_other;  // of the head in the middle, with the other sampling
     Crosstalk theory = {}, theory_of_other = {};
 
     std::size_t middle() const { return places.size() / 2; }
 };
 
+/// Returns the position of the left (0) or right eye (1) of a head, mm.
 double eye_of_head(double head, std::size_t side, double apart) { return head + (double(side) - 0.5) * apart; }
 
+/// Returns the crosstalk of both eyes of a head, by few lines.
 BothEyes look_with_both(const Eyes& eyes, double head, double apart) {
     BothEyes found;
     for (const std::size_t side : {0u, 1u}) {
@@ -38,7 +41,7 @@ BothEyes look_with_both(const Eyes& eyes, double head, double apart) {
     return found;
 }
 
-/// Theory of a head in the middle: both eyes together.
+/// Returns the crosstalk by theory of a head in the middle, of the light of both eyes together.
 Crosstalk theory_of_eyes(const Eyes& eyes, const std::array<MetPlaces, 2>& met, const MeantPanel& panel) {
     Leak both;
     const auto add = [](LightPart& sum, const LightPart& part) {
@@ -53,6 +56,8 @@ Crosstalk theory_of_eyes(const Eyes& eyes, const std::array<MetPlaces, 2>& met, 
     return crosstalk_of(both.leak, both.signal, 0);
 }
 
+/// Measures heads at 61 positions to 1.5 eye distances on either side; the one in the middle with the most lines, with both
+/// samplings, and by theory.
 Heads look_with_heads(Eyes& eyes, double apart) {
     Heads all{apart, {}, std::vector<BothEyes>(heads), {}};
     for (int n = 0; n < heads; ++n) all.places.push_back(1.5 * apart * (2. * n / (heads - 1) - 1));
@@ -79,20 +84,20 @@ Heads look_with_heads(Eyes& eyes, double apart) {
     return all;
 }
 
-/// The crosstalk of the eye that has more. No light counts as the worst.
+/// Returns the crosstalk of the worse eye; no light counts as the worst.
 Crosstalk worse(const BothEyes& both) {
     const auto rank = [](const Crosstalk& c) { return std::isnan(c.percent.value) ? infinity : c.percent.value; };
     return rank(both[0]) > rank(both[1]) ? both[0] : both[1];
 }
 
-/// The largest displacement of the head to one side, -1 or 1, by bisection of the step to the first place that is too bad. Each
-/// figure has `errors` times its error added.
+/// Returns how far the head may move to one side, -1 or 1, until the worse eye has more than 10 %: the first step at which it
+/// does is halved three times. Each figure counts with `errors` times its error added.
 Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
     const auto allowed = [&](const BothEyes& both) {
         const Crosstalk found = worse(both);
         if (found.left_to_rounding) return errors < 0;
         const Estimate& e = found.percent;
-        return e.value + errors * (std::isfinite(e.error) ? e.error : 0) <= tolerable_percent;  // not where it is NaN
+        return e.value + errors * (std::isfinite(e.error) ? e.error : 0) <= tolerable_percent;  // false if it is NaN
     };
     Limit found;
     std::size_t n = all.middle();
@@ -115,8 +120,10 @@ Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
     return {0.5 * (good + bad), 0.5 * std::abs(bad - good), {}};
 }
 
-/// The interval in which both eyes have tolerable crosstalk; its error is the shift of the limits by the figures' errors.
+/// Returns the interval of head positions in which both eyes have tolerable crosstalk. Its error is half the last step and the
+/// shift of the limits when each figure is less or greater by its error.
 Interval head_range(Eyes& eyes, const Heads& all) {
+    // Limits 0 to 2 are the left ones with -1, 0 and 1 times the errors, 3 to 5 the right ones.
     std::array<Limit, limits> found;
     eyes.parts.run(limits, [&](int n) { found[std::size_t(n)] = head_limit(eyes, all, n < 3 ? -1 : 1, n % 3 - 1); });
     std::array<Limit, 2> ends;
@@ -132,9 +139,9 @@ Interval head_range(Eyes& eyes, const Heads& all) {
     return known({ends[0], ends[1]}, 0);
 }
 
-/// The eyes are not both in the one viewing zone, so that crosstalk between them is undefined.
+/// Adds that crosstalk between the eyes is undefined, since they are not both in one viewing zone of the width `zone_mm`.
 void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
-    eyes.parts.run(heads + limits, [](int) {});
+    eyes.parts.run(heads + limits, [](int) {});  // progress for the work that is left out
     Json& json = result.figures["between_eyes"];
     for (const char* name : {"left_eye_percent", "left_eye_percent_error", "right_eye_percent", "right_eye_percent_error",
                              "theory_percent", "head_within_10_percent_mm"})
@@ -147,6 +154,7 @@ void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
     result.add_line({nan, why}, {.label = "Crosstalk between the eyes", .unit = "%"});
 }
 
+/// Adds the figures of both eyes of the head in the middle, for content as described and for the other sampling.
 void add_eyes(const Eyes& eyes, const Heads& all, ContentSampling sampling, Result& result) {
     Json other;
     if (eyes.other) other["sampling"] = name_of(*eyes.other_sampling);
@@ -175,6 +183,7 @@ void add_eyes(const Eyes& eyes, const Heads& all, ContentSampling sampling, Resu
 }  // namespace
 
 void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
+    // The viewing zone is E p'/g wide.
     const double apart = s.options().eye_distance_mm, zone_mm = eyes.eye_mm * image_along_row_mm(s) / s.geometry().gap_mm;
     if (apart > zone_mm) return tell_apart(s, eyes, zone_mm, result);
     const Heads all = look_with_heads(eyes, apart);

@@ -22,14 +22,16 @@ MeantLight::MeantLight(const MetPlaces& met, const std::vector<ChannelWeights>& 
 
 LightPart MeantLight::between(double low, double high) const {
     constexpr double rounding = 1e-9;  // of slopes
+    // Returns the share of light with a slope that belongs to the part: 1 inside, 1/2 at an end, 0 outside and for NaN.
     const auto share = [&](double slope) {
         const double inside = std::min(slope - low, high - slope);
-        return std::abs(inside) <= rounding ? 0.5 : inside > 0 ? 1. : 0.;  // 0 of NaN
+        return std::abs(inside) <= rounding ? 0.5 : inside > 0 ? 1. : 0.;
     };
     LightPart part;
     for (std::size_t k = 0; k < rays_.size(); ++k) {
         for (const InnerRay& ray : rays_[k]) part.light[k] += share(ray.slope) * double(ray.light);
         for (const BorderRay& ray : on_borders_[k]) {
+            // On a border of elemental images the share lies between the least and the greatest of its lenses: the mean counts.
             double least = 1, most = 0;
             for (const double slope : ray.slopes.all()) {
                 least = std::min(least, share(slope));
@@ -48,10 +50,12 @@ Crosstalk crosstalk_of(const LightPart& leak, const LightPart& signal, double mi
     };
     Crosstalk found{jackknife(of_all_but)};
     Estimate& e = found.percent;
-    // A share that is wrong by d makes (1 - share) / share wrong by d / share^2.
+    // With the signal's share of the light, crosstalk is (1 - share)/share: an error d of the share makes an error d/share^2 of
+    // it.
     const double inverse_share = 1 + e.value / 100;
     if (std::isfinite(e.error)) e.error = std::max(e.error, 100 * missed * inverse_share * inverse_share);
     if (!(leak.open + signal.open > 0)) return found;
+    // The crosstalk with all undecided light on one side, and on the other
     const double least = 100 * std::max(total(leak.light) - leak.open, 0.) / (total(signal.light) + signal.open),
                  most = 100 * (total(leak.light) + leak.open) / std::max(total(signal.light) - signal.open, 0.),
                  open = std::max(e.value - least, most - e.value);

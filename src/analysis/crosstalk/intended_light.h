@@ -1,4 +1,4 @@
-// The light that an eye gathers, by the viewers that it is meant for. Floor 3.
+// The light that an eye receives, by the viewers for whom it is intended. Floor 3.
 #pragma once
 #include "analysis/core/met_places.h"
 #include "analysis/crosstalk/intended_panel.h"
@@ -9,39 +9,41 @@
 
 namespace lfdsim {
 
-/// Some of the light that an eye gathers.
+/// A part of the light that an eye receives, for each set of lines of sight.
 struct LightPart {
     Sums light{};
-    double open =
-        0;  // it may be so much more or less: light of points on the border of elemental images, whose lens rounding chooses
+    // Half of the light, of all sets, that belongs to the part by one of several lenses only: of points on the border of
+    // elemental images, whose lens rounding chooses. The part may be greater or less by as much.
+    double open = 0;
 };
 
-/// Crosstalk in per cent. Where rounding decides on more than half of it, and on more than 1 %, it is NaN.
+/// Crosstalk in per cent; NaN where rounding decides on more than half of it and on more than 1 %.
 struct Crosstalk {
     Estimate percent;
     bool left_to_rounding = false;
 };
-/// 100 leak / signal: infinite where there is leak alone, NaN where there is no light. `missed`: the share of the light that may be
-/// missed by chance. The error covers both lenses that light on the border of elemental images may belong to.
+/// Returns 100 leak / signal: infinite if there is only leak, NaN if there is no light. `missed` is the share of all light that
+/// may be missed by chance, a lower bound of the error. The error covers each lens to which light on the border of elemental
+/// images may belong.
 Crosstalk crosstalk_of(const LightPart& leak, const LightPart& signal, double missed);
 
-/// The light that one eye gathers of a white panel, by the slopes that what shines there is meant for.
+/// The light that one eye receives from a white panel, by the slopes for which it is intended.
 class MeantLight {
   public:
-    /// Sorts the places that the eye's lines meet; the weights are those of the channels of each path.
+    /// Assigns slopes to the points that an eye's lines meet; the weights are those of the channels of each path.
     MeantLight(const MetPlaces&, const std::vector<ChannelWeights>&, const MeantPanel&);
-    /// The light meant for slopes from low to high. Light exactly at either end counts half, and so does light on the border of
-    /// elemental images of which one only has it there.
+    /// Returns the light intended for slopes from low to high. Light exactly at either end counts half, as does light on the
+    /// border of elemental images of which only one is intended for these slopes.
     LightPart between(double low, double high) const;
     LightPart all() const { return between(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()); }
-    /// The weight of three lines of sight, as so many may be missed by chance, over all light.
+    /// Returns the weight of the three brightest lines over all light: that much may be missed by chance.
     double missed() const { return 3 * brightest_ / total(all().light); }
 
   private:
     /// A line of sight that ends within an elemental image: the slope that its light is meant for.
     struct InnerRay {
         double slope;
-        float light;  // sums of floats in double are exact, so that mirrored displays have the same sums
+        float light;  // float, whose sums in double are exact, so that mirrored displays have equal sums
     };
     /// A line of sight that ends on the border of elemental images.
     struct BorderRay {

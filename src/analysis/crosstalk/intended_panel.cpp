@@ -39,8 +39,8 @@ std::optional<MeantPanel::ShiningPoint> MeantPanel::at(double x_mm, double y_mm,
         const double weight = pixels_.size() > 1 ? weights[channel] : std::accumulate(weights.begin(), weights.end(), 0.);
         if (weight == 0) continue;
         const auto shining = pixels_[channel].at(place);
-        if (!shining) continue;  // subpixels do not overlap: the first that shines is the only one
-        // Where pitches are known to a nanometre, a border n lenses from the middle is known to n/2 of them.
+        if (!shining) continue;  // subpixels do not overlap: the first that emits is the only one
+        // Pitches are given to a nanometre, so that a border n lenses from the middle is known to n/2 nanometres.
         const Point shown = mm(shining->shown);
         const ViewerSlopes found = slopes(shown, 0.5e-6 * (1 + std::hypot(shown[0], shown[1]) / pickup_.lattice().pitch[0]));
         if (std::ranges::all_of(found.all(), [](double slope) { return std::isnan(slope); })) return {};
@@ -67,6 +67,7 @@ double MeantPanel::share_on_borders() const {
 MeantPanel::ViewerSlopes MeantPanel::slopes(const Point& point, double margin) const {
     ViewerSlopes found(slope(point));
     if (!pickup_.near_border(point[0], point[1], margin)) return found;
+    // The owners of points around, on the other sides of the borders
     constexpr int directions = 8;
     for (int k = 0; k < directions; ++k) {
         const double turn = 2 * pi * k / directions;
@@ -81,7 +82,8 @@ double MeantPanel::slope(const Point& point) const {
     if (!line.owned) return nan;
     const Lattice<double>& lattice = pickup_.lattice();
     const double per_mm = (pickup_.scale - 1) / gap_mm_;  // 1/E
-    // e C - P over g. Lenses that stand by themselves have gaps of their own: their lines' slope, seen from the middle.
+    // The slope is (e C - P)/g. Misaligned lenses have different gaps: the slope of their line through R, seen from the screen's
+    // middle, is m + R/E.
     const optics::Vec2<double> towards =
         pickup_.irregular() ? optics::Vec2<double>{line.mx + line.x * per_mm, line.my + line.y * per_mm}
                             : optics::Vec2<double>{(line.x * pickup_.scale - x) / gap_mm_, (line.y * pickup_.scale - y) / gap_mm_};

@@ -6,7 +6,8 @@
 namespace lfdsim {
 namespace {
 
-/// A place in the clear aperture of a lens, from the array's middle in its own axes; nothing for what is in the box about it only.
+/// Returns the position that a choice gives within the clear aperture of a lens, mm from the array's centre in its frame; nothing
+/// if the position lies in the box about the aperture only.
 std::optional<optics::Vec2<double>> in_aperture(const Geometry& g, const ApertureShape& shape, const Choice& c) {
     const Lattice<double>& l = g.lattice;
     const auto number = [&](std::size_t k) { return std::min(std::floor((0.5 + 0.5 * c[4 + k]) * l.count[k]), l.count[k] - 1); };
@@ -27,6 +28,8 @@ MetPlaces MeantTheory::look(double x_mm, const LineSets& sets) const {
     const ParaxialLines lines(subject_.display(), g, {x_mm, 0, distance_mm_});
     const PanelBehind panel(g);
     return {sets, 1, [&](const Choice& c, std::size_t) -> std::optional<MetPlaces::Met> {
+                // Lines are chosen by where they meet the lenses, so that none is lost between apertures, and count if the point
+                // that they aim at lies in the array's rectangle and on the screen.
                 const auto place = in_aperture(g, aperture_, c);
                 if (!place) return {};
                 const auto lands = optics::in_display(g.lattice, *place);

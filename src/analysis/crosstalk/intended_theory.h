@@ -6,14 +6,14 @@
 
 namespace lfdsim {
 
-/// Lines of sight through paraxial lenses, which meet the same pixels as those of the display itself; all colours as green. Sums
-/// over 2^17 of them are good to 0.002 of the light.
+/// Lines of sight through paraxial lenses, which meet the same pixels as those of the display itself, with all colours in green
+/// light. Sums over 2^17 of them are accurate to 0.002 of the light.
 class MeantTheory {
   public:
-    /// The eye's distance from the panel, mm.
+    /// `distance_mm`: of the eye from the panel.
     MeantTheory(const Subject&, double distance_mm);
 
-    /// The places that the lines of sight of an eye at x meet.
+    /// Returns the points of the panel that the lines of sight of an eye at x meet.
     MetPlaces look(double x_mm, const LineSets&) const;
 
   private:

@@ -7,31 +7,32 @@
 
 namespace lfdsim {
 
-/// A line that the diffuser has turned and that comes down to a lens. Places in the array's own axes from its middle, mm.
+/// A line that has passed the diffuser and comes down to a lens. Positions are in the array's frame from its centre, mm.
 struct ParaxialLine {
-    optics::Vec2<double> axis;   // of the lens; of strips on x' alone
+    optics::Vec2<double> axis;   // of the lens; of strips its x' only
     optics::Vec2<double> at;     // in the plane of H'
-    optics::Vec2<double> slope;  // dx/dz and dy/dz as it comes down there
+    optics::Vec2<double> slope;  // dx'/dz and dy'/dz above the lens
     optics::Vec2<double> seen;   // on the panel
-    bool through;                // it meets the clear aperture; else `seen` has no meaning
+    bool through;                // it meets the clear aperture; if not, `seen` has no meaning
 };
 
-/// The lenses have no thickness: lines bend by q/f in the plane of H', q from the axis (docs/measures.md, "Moire" and "Crosstalk").
-/// Strips bend what runs across them; along them there are plane plates, whose thickness counts over its index. Below thin lenses
-/// the layers bend lines by Snell's law itself.
+/// Lines of sight through lenses without thickness: a line's slope changes by q/f in the plane of H', q from the lens's axis, and
+/// it ends g further down (docs/measures.md, "Moire" and "Crosstalk"). Strips do so across themselves; along them they are plane
+/// plates, which count with thickness over index. Below thin lenses the layers refract lines by Snell's law.
 class ParaxialLines {
   public:
-    /// An eye in front of the display and its diffuser, mm.
+    /// `eye`: in front of the display and its diffuser, mm, display frame.
     ParaxialLines(const Display&, const Geometry&, const Vec3d& eye);
 
-    /// Follows the line that aims at (x, y), mm in the display's frame, turned by the diffuser's angles for the numbers a and b,
-    /// -1 to 1. Nothing: it comes down beside all lenses, or not at all.
+    /// Follows the line that aims at (x, y), mm in the display's frame, turned at the diffuser by the angles for the numbers a
+    /// and b in [-1, 1]. Nothing if it meets the plane of H' beside all lenses, or is turned away from the panel.
     std::optional<ParaxialLine> look(double x, double y, double a, double b) const;
 
-    /// The aim of the line that comes down to the lenses at (x, y), to first order of the diffuser's shift.
+    /// Returns the point to aim at so that the line comes down to the lenses at (x, y), to first order of the diffuser's
+    /// displacement.
     std::optional<optics::Vec2<double>> aim_at(double x, double y, double a, double b) const;
 
-    /// Whether the panel reaches there; a place as `seen`.
+    /// Returns whether a point, given as ParaxialLine::seen, lies on the panel.
     bool on_panel(const optics::Vec2<double>&) const;
 
   private:
@@ -40,7 +41,8 @@ class ParaxialLines {
     };
     std::optional<LineSlopes> slopes(double x, double y, double a, double b) const;
     double angle(double number, std::size_t axis) const;  // of the diffuser, radians
-    /// The lateral displacement of lines below the lenses per slope, along the array's x and y.
+    /// Returns the lateral displacement, mm, per unit of slope of lines between the lenses and the panel, along x' and y': g, and
+    /// more for steep lines in layers.
     optics::Vec2<double> reach_mm(double slope_squared) const;
 
     const Display& display_;

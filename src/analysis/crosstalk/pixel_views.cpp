@@ -12,8 +12,8 @@ namespace {
 
 constexpr double most_views = 2e6;
 
-/// The mean of exp(2 pi i s/step) over pixels, s the slopes that their centres are meant for: of the size 1 where they lie alike in
-/// all elemental images, with the phase of where.
+/// Returns the mean of exp(2 pi i s/step) over pixels, s the slopes for which their centres are intended. Its size is 1 if the
+/// centres have the same positions in all views; its phase is that position.
 std::complex<double> alignment(const Panel& panel, const MeantPanel& pixels, double step) {
     const auto number = [](double choice, std::int64_t count) { return std::floor((0.5 + 0.5 * choice) * double(count)); };
     std::complex<double> sum = 0;
@@ -34,12 +34,14 @@ double image_along_row_mm(const Subject& s) {
 }
 
 PixelViews::PixelViews(const Subject& s, const MeantPanel& pixels) : step_(s.display().panel.pixel_pitch_mm / s.geometry().gap_mm) {
+    // Images are a whole number of pixels wide if images and pixels come apart by less than a pixel over the whole array.
     const double across = image_along_row_mm(s) / s.display().panel.pixel_pitch_mm, nearest = std::round(across);
     const bool whole = nearest >= 1 && std::abs(across - nearest) * (s.geometry().lattice.count[0] - 1) < 1;
     const double width = std::min(whole ? nearest : across, most_views);
-    // Middles at k + m with |k + m| + 1/2 <= width/2
+    // The last whole view has its middle at k + m with |k + m| + 1/2 <= width/2.
     const auto last = [&](double innermost) { return std::floor(0.5 * (width - 1) - innermost + 1e-9); };
     if (whole && std::fmod(nearest, 2) == 0) innermost_ = 0.5;
+    // Centres half a step from the middles, mean of cos(2 pi (s/step - m)) < -1/2, lie near borders of views.
     const double other = 0.5 - innermost_;
     const std::complex<double> about = alignment(s.display().panel, pixels, step_);
     if ((about * std::polar(1., -2 * pi * innermost_)).real() < -0.5 && last(other) >= 0) innermost_ = other;

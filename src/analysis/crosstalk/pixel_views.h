@@ -1,4 +1,4 @@
-// Which views a display has: strips of its elemental images one pixel wide. Floor 3.
+// The views of a display: strips of its elemental images one panel pixel wide. Floor 3.
 #pragma once
 #include "analysis/core/subject.h"
 #include "analysis/crosstalk/intended_panel.h"
@@ -8,22 +8,25 @@
 
 namespace lfdsim {
 
-/// A view is what is meant for the slopes within half a step a/g of its middle. The middles are at k a/g from the screen's normal;
-/// where elemental images are a whole even number of pixels wide, so that over the whole array they and the pixels come apart by
-/// less than a pixel, they are at (k + 1/2) a/g. Where the centres of most pixels would lie about the borders of such views, as
-/// with lenses that are shifted by half a pixel, the other of both holds. Only views that lie in an elemental image as a whole
-/// count.
+/// The views' middles and number. A view consists of what is intended for slopes within half a step, a/g, of its middle. The
+/// middles are at k a/g; where elemental images are an even number of pixels wide, so that over the whole array images and pixels
+/// come apart by less than a pixel, they are at (k + 1/2) a/g. If most pixels' centres would then lie near the borders of views,
+/// as with lenses shifted by half a pixel, the other of both holds. Only whole views count, whose strips lie in the elemental
+/// image.
 class PixelViews {
   public:
-    /// `pixels`: with content made for whole pixels.
+    /// `pixels`: the panel with content made for whole pixels.
     PixelViews(const Subject&, const MeantPanel& pixels);
 
+    /// Returns the slope from view to view, a/g.
     double step_slope() const { return step_; }
-    /// Middle of the innermost one, in steps: 0 or 1/2.
+    /// Returns the middle of the innermost view, in steps: 0 or 1/2.
     double innermost() const { return innermost_; }
+    /// Returns the number of whole views; 0 if elemental images are narrower than a pixel.
     std::int64_t count() const { return count_; }
 
-    /// Middles in steps, rising, the innermost one among them; `most` of them at most, evenly.
+    /// Returns the views' middles, in steps, ascending: all of them, or at most `most` at equal distances; the innermost is among
+    /// them.
     std::vector<double> middles(std::int64_t most) const;
 
   private:
@@ -31,7 +34,7 @@ class PixelViews {
     std::int64_t count_ = 0;
 };
 
-/// Width of an elemental image along a row of the panel, mm; strips lean against it.
+/// Returns the width of an elemental image along a row of the panel, mm: p', over cos(slant) of strips.
 double image_along_row_mm(const Subject&);
 
 }  // namespace lfdsim
