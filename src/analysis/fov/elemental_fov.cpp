@@ -10,10 +10,11 @@
 namespace lfdsim {
 namespace {
 
-constexpr double share_error = 0.005;  // about one half: the share is not known more exactly, nor need it be
+constexpr double share_error = 0.005;  // the share is not known more accurately than to this, about one half
+// Each of the sets has first_rays lines, times up to most_growth; the bracket is found with coarse_rays.
 constexpr int sets = 4, first_rays = 1024, coarse_rays = 512, most_growth = 64;
 
-/// Mirrors lines of sight for the other side: a symmetric display then has the same share there to the last bit.
+/// Mirrors lines of sight along an axis for the other side: a symmetric display then has the same share there to the last bit.
 void mirror(std::vector<Choice>& choices, int axis) {
     for (Choice& c : choices)
         for (const std::size_t k : {0u, 2u, 4u}) c[k + std::size_t(axis)] = -c[k + std::size_t(axis)];
@@ -34,6 +35,7 @@ OwnLens::OwnLens(Display display, bool with_diffuser)
                      pickup_.lattice().strips ? 0 : optics::reach_of_cell(pickup_.lattice()) * pickup_.scale} {}
 
 bool OwnLens::is_whole(double x, double y) const {
+    // The half sides of the image's bounding box in the display's frame
     const double c = std::abs(pickup_.lattice().cos_turn), s = std::abs(pickup_.lattice().sin_turn);
     const auto [half_x, half_y] = half_image_mm_;
     return std::abs(x) + half_x * c + half_y * s <= 0.5 * geometry_.panel_width_mm + 1e-9 * half_x &&
@@ -59,7 +61,7 @@ double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
         const Lattice<double>& lattice = pickup_.lattice();
         double x = sight.lens[0] * pickup_.scale, y = sight.lens[1] * pickup_.scale;
         const auto off = optics::to_array(lattice, sight.x - x, sight.y - y);
-        if (lattice.strips) {  // the point of the image's middle line beside the one that is seen
+        if (lattice.strips) {  // of a strip's image the point of its middle line beside the point that is seen
             const auto along = optics::to_display(lattice, 0., off.y);
             x += along.x;
             y += along.y;
@@ -73,12 +75,13 @@ double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
 
 namespace {
 
-/// The bracket of one side: the steps between which the share falls below one half, by few lines of sight, or why there are none.
+/// Two positions on one side between which the share falls below one half, by few lines of sight; or why there are none.
 struct Bracket {
     double in = nan, out = nan;
     std::string missing;
 };
 
+/// Finds the bracket by steps from the middle.
 Bracket bracket(const OwnLens& lens, const EyePath& path, int side, std::span<const Choice> choices) {
     const double middle = lens.share(path.eye(0), choices);
     if (std::isnan(middle)) return {nan, nan, "no light of lenses whose whole elemental image lies on the panel is seen"};
@@ -96,8 +99,8 @@ Bracket bracket(const OwnLens& lens, const EyePath& path, int side, std::span<co
     return {nan, nan, fmt::format("the share stays above one half up to {:.4g}, where the search ends", path.most)};
 }
 
-/// The place between them where the share falls below a level, or steps farther on either side: other lines of sight may fall
-/// there.
+/// Returns the position at which the share falls below a level, to `precision`, by bisection of the bracket; if the share by
+/// these lines falls outside of it, the bracket is extended in steps first.
 double falls_to(double level, const OwnLens& lens, const EyePath& path, int side, Bracket b, double precision,
                 std::span<const Choice> choices) {
     const auto own = [&](double at) { return lens.share(path.eye(side * at), choices) >= level; };
@@ -132,7 +135,8 @@ OwnRange where_own(const OwnLens& lens, const EyePath& path, double wanted, std:
             for (std::uint32_t set = 0; set < sets; ++set)
                 found[set] = falls_to(0.5, lens, path, side, b, precision, choices(first_rays * growth, sets * seed + set));
             const auto [at, error] = estimate(found, precision);
-            // Where few lenses drop out one by one the share has steps, and one of them may lie at one half.
+            // Where few lenses drop out one after the other the share has steps, and one of them may lie at one half: the error
+            // includes how far the share is within share_error of it.
             const std::vector<Choice> lines = choices(first_rays * growth, sets * seed);
             const auto away = [&](double share) {
                 return std::abs(falls_to(share, lens, path, side, b, precision, lines) - found[0]);
@@ -140,6 +144,7 @@ OwnRange where_own(const OwnLens& lens, const EyePath& path, double wanted, std:
             range.at[k] = at;
             range.error[k] = std::hypot(error, std::max(away(0.5 - share_error), away(0.5 + share_error)));
             if (error <= wanted) break;
+            // More lines search near the position that these have found.
             b.in = std::max(std::abs(at) - 3 * error, 0.);
             b.out = std::min(std::abs(at) + 3 * error, path.most);
         }
@@ -149,12 +154,13 @@ OwnRange where_own(const OwnLens& lens, const EyePath& path, double wanted, std:
 
 namespace {
 
-/// An axis of the array, as a unit vector in the display's frame.
+/// Returns an axis of the array as a unit vector in the display's frame.
 std::array<double, 2> array_axis(const Display& d, int axis) {
     const double turn = d.array.turn_deg() * degree, c = std::cos(turn), s = std::sin(turn);
     return axis == 0 ? std::array{c, s} : std::array{-s, c};
 }
 
+/// Returns the slope of the edge by theory, p'/2g.
 double half_slope(const Geometry& g, const Theory& t, int axis) {
     return 0.5 * t.along[std::size_t(axis)].elemental_pitch_mm / g.gap_mm;
 }
@@ -169,11 +175,13 @@ EyePath arc(const Display& d, const Geometry& g, double distance, int axis) {
         const double aside = distance * std::sin(angle * degree);
         return Vec3d{aside * x, aside * y, distance * std::cos(angle * degree)};
     };
+    // The angle at which the arc reaches the display, with a margin of a thousandth
     const double before = std::acos(std::min(1.001 * nearest_eye_mm(g) / distance, 1.)) / degree;
     return {eye, std::min(85., before), std::min(0.1 * half_field(d, g, axis) / degree, 1.), axis};
 }
 
 double arc_edge_deg(const Geometry& g, const Theory& t, double distance, int axis) {
+    // R sin a = slope (R cos a - z_H') gives a = atan(slope) - asin(slope z_H'/(R sqrt(1 + slope^2))).
     const double slope = half_slope(g, t, axis);
     return (std::atan(slope) - std::asin(slope * g.rear_principal_mm / (distance * std::hypot(1, slope)))) / degree;
 }

@@ -1,3 +1,6 @@
+// The measure of the field of view: by geometry, and by the likeness of simulated views and photographs of the scene over the
+// angle of the view. docs/measures.md, "Field of view".
+
 #include "analysis/fov/fov.h"
 
 #include "analysis/core/elemental_panel.h"
@@ -10,28 +13,27 @@
 #include <algorithm>
 #include <cmath>
 
-// The field of view by geometry; and by simulated views beside photographs of the scene, against the angle of the view.
-// docs/measures.md, "Field of view".
 namespace lfdsim {
 namespace {
 
 constexpr double least_view_ssim = 0.85, most_slope_per_deg = 0.005;  // the 2019 paper's
 
-/// The published rule that ends the field of view on a side: the nearer one of the two.
+/// Returns which published rule ends the field of view on a side: the one that ends nearer to the middle.
 std::string bound(const Limit& ssim, const Limit& gradient) {
     if (std::isnan(ssim.at) && std::isnan(gradient.at)) return "none";
     if (std::isnan(gradient.at) || std::abs(ssim.at) <= std::abs(gradient.at)) return "ssim";
     return "gradient";
 }
 
+/// Returns the range as an interval about 0.
 Interval interval(const OwnRange& r) {
     return known({{r.at[0], r.error[0], r.missing[0]}, {r.at[1], r.error[1], r.missing[1]}}, 0);
 }
 
-/// The intervals in which a curve of SSIM keeps the published rules, and that in which it is above half of its fall.
+/// The intervals in which a curve of SSIM meets the published criteria, and that in which it is above half of its fall.
 struct SsimIntervals {
     Interval ssim, gradient, half_way;
-    double error;  // of the curve
+    double error;  // standard deviation of the curve's values
 
     SsimIntervals(const Curve& c, const Falls& expected)
         : ssim(where_at_least(c, 0, least_view_ssim)),
@@ -40,6 +42,7 @@ struct SsimIntervals {
           error(c.error) {}
 };
 
+/// Adds the intervals of a curve under a path that ends with a dot.
 void add_rules(Result& result, Json& json, const std::string& path, const SsimIntervals& rules) {
     result.add(path + "ssim_rule_deg", figure_of(rules.ssim));
     result.add(path + "gradient_rule_deg", figure_of(rules.gradient));
@@ -48,6 +51,7 @@ void add_rules(Result& result, Json& json, const std::string& path, const SsimIn
     json["ssim_error"] = rules.error;
 }
 
+/// Adds the edges by geometry along one axis; `way` is the axis in words.
 void add_geometry(Result& result, const std::string& name, const std::string& way, const OwnRange& lenses, const OwnRange& diffused,
                   const FigureValue& theory) {
     result.add(name + ".own_lens_deg", figure_of(interval(lenses)),
@@ -63,6 +67,7 @@ void add_geometry(Result& result, const std::string& name, const std::string& wa
                 .remark = "up to the same share of light, scattered by the diffuser"});
 }
 
+/// Adds the edges by likeness along one axis. They are searched for where geometry has the edge with the diffuser, or theory.
 void add_likeness(Result& result, const std::string& name, const std::string& way, const AngleCurves& curves,
                   const OwnRange& diffused, double edge_deg, double reach_deg) {
     const auto line = [&](const std::string& what, const std::string& remark) {
@@ -89,7 +94,7 @@ void add_likeness(Result& result, const std::string& name, const std::string& wa
              "with the background, which raises SSIM where it is black in both pictures");
     add_line(content.gradient, fmt::format("slope of the content's SSIM of {} per degree or less", most_slope_per_deg),
              "the published criterion, which ends before the edge with steps of one degree");
-    // The views that are nearest to the axis, mostly on it.
+    // The likeness of the view nearest to the axis, usually on it
     const std::vector<double>& angles = curves.content.at;
     const auto middle = std::ranges::min_element(angles, {}, [](double a) { return std::abs(a); });
     const auto at_middle = [&](const Curve& c) { return Estimate{c.value[std::size_t(middle - angles.begin())], c.error}; };
@@ -101,7 +106,7 @@ void add_likeness(Result& result, const std::string& name, const std::string& wa
     result.add(name + ".screen.middle_ssim", at_middle(curves.screen));
 }
 
-/// The largest shift to one side of the edges by likeness against those by geometry.
+/// Returns the largest shift to one side, degrees, of the edges by likeness against those by geometry: the sum of both ends.
 double most_aside_deg(const Json& figures) {
     double most = 0;
     for (const char* axis : {"horizontal", "vertical"}) {
@@ -116,9 +121,9 @@ double most_aside_deg(const Json& figures) {
     return most;
 }
 
-/// Adds the eyebox, the extent of the field of view in the plane at the eye's distance: width and height.
+/// Adds the eyebox, the extent of the field of view in the plane at the eye's distance, width and height, mm; by theory E p'/g.
 void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>& ranges) {
-    // A hexagon's image is as high as from corner to corner.
+    // A hexagon's image is 2/sqrt(3) as high as its pitch, from corner to corner.
     const bool hexagon = s.display().array.lattice == LatticeKind::hexagon;
     const auto theory = [&](std::size_t axis) {
         return (s.viewing_distance_mm() - s.geometry().rear_principal_mm) * s.theory().along[axis].elemental_pitch_mm /
@@ -166,6 +171,7 @@ Result measure_fov(Subject& subject, Job& job) {
                          fmt::format("from {:.4g} degrees on an eye {:.4g} mm from the panel's centre is inside the "
                                      "display; give less",
                                      most, distance));
+    // Theory and geometry
     Result result;
     const double edge[] = {theory_edge_deg(subject, 0), is_strips(display.array) ? nan : theory_edge_deg(subject, 1)};
     const std::array<AxisTheory, 2>& along = subject.theory().along;
@@ -177,6 +183,7 @@ Result measure_fov(Subject& subject, Job& job) {
     add_eyebox(result, subject, geometric.eyebox);
     result.figures["lenses_with_whole_images"] = geometric.whole_images;
 
+    // Views of the scene, at a depth at which it can be seen from all of the angles
     const double depth = fov_scene_depth_mm(subject, angles), described = subject.geometry().content_depth_mm;
     std::unique_ptr<ShownPanel> own;
     if (depth != described)
@@ -191,7 +198,7 @@ Result measure_fov(Subject& subject, Job& job) {
         const std::string way = is_strips(display.array) ? "across the strips" : name;  // the arc's direction
         const OwnRange &lenses = geometric.lenses[std::size_t(axis)], &diffused = geometric.diffused[std::size_t(axis)];
         const AngleCurves curves = angle_curves(subject, shown, axis, angles, job);
-        // A hexagon's image has a corner above its middle, where theory's pitch has none.
+        // Theory's pitch is the distance of rows; a hexagon's image has a corner above its middle, beyond that.
         const bool corner = axis == 1 && display.array.lattice == LatticeKind::hexagon;
         add_geometry(result, name, way, lenses, diffused, corner ? FigureValue() : std::vector{-edge[axis], edge[axis]});
         add_likeness(result, name, way, curves, diffused, edge[axis], fades_over_deg(subject, axis));

@@ -1,3 +1,6 @@
+// Views of the scene and photographs of it over the angle of the view, and the geometric edges. docs/measures.md, "Field of
+// view".
+
 #include "analysis/fov/fov_views.h"
 
 #include "analysis/crosstalk/slope_spread.h"
@@ -11,11 +14,10 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/measures.md, "Field of view".
 namespace lfdsim {
 namespace {
 
-constexpr double wanted_error_deg = 0.05;
+constexpr double wanted_error_deg = 0.05;  // of a geometric edge
 
 double widest_edge_deg(const Subject& s) {
     double widest = 0;
@@ -28,6 +30,7 @@ double widest_edge_deg(const Subject& s) {
 double theory_edge_deg(const Subject& s, int axis) { return arc_edge_deg(s.geometry(), s.theory(), s.viewing_distance_mm(), axis); }
 
 double fades_over_deg(const Subject& s, int axis) {
+    // Lenses at X across the screen have their edge shifted by X (1/E - 1/M) in slope, M = D' - z_H'.
     const double rear = s.geometry().rear_principal_mm, eye = s.viewing_distance_mm() - rear;
     const double size = screen_size_mm(s.geometry())[std::size_t(axis)];
     const double across = size * std::abs(1 / eye - 1 / (s.display().content.viewing_distance_mm - rear));
@@ -50,7 +53,7 @@ double fov_depth_mm(const Subject& s) {
     const double distance = s.viewing_distance_mm(), described = g.content_depth_mm;
     const double edge = std::min(widest_edge_deg(s) + 2, 80.) * degree;
     const double half_screen = 0.5 * std::min({g.array_width_mm, g.array_height_mm, g.panel_width_mm, g.panel_height_mm});
-    // What stands behind the lenses is seen through the screen at X d/(d + E), X how far the eye has gone aside.
+    // What is d behind the lenses is seen through the screen at X d/(d + E), X the eye's distance from the axis.
     const double aside = distance * std::sin(edge), ahead = distance * std::cos(edge) - g.vertex_plane_mm;
     const double behind = aside > half_screen ? half_screen * ahead / (aside - half_screen) : 1e6;
     const double most = half_screen / std::tan(edge);
@@ -61,7 +64,8 @@ double fov_scene_depth_mm(const Subject& s, const std::vector<double>& angles) {
     const double nearest = s.viewing_distance_mm() * std::cos(std::max(-angles.front(), angles.back()) * degree);
     const double most = nearest - s.geometry().vertex_plane_mm - 2 * length(s.scene().half_size_mm());
     const double depth = std::min(fov_depth_mm(s), most), below = s.geometry().base_z_mm - s.geometry().vertex_plane_mm;
-    return depth >= below && depth < 0 && most < 0 ? 1.01 * below : depth;  // never inside the lenses
+    // The centre is never inside the lenses: it goes just behind them if the eyes leave no room in front.
+    return depth >= below && depth < 0 && most < 0 ? 1.01 * below : depth;
 }
 
 AngleCurves angle_curves(const Subject& subject, const ShownEdge& shown, int axis, const std::vector<double>& angles, Job& job) {
@@ -85,7 +89,7 @@ AngleCurves angle_curves(const Subject& subject, const ShownEdge& shown, int axi
     // The CPU photographs the scene from the next angle while a GPU renders and compares.
     make_ahead(
         angles.size(), renders_on_gpu(subject.rendering()), [&](std::size_t k) { return expected_at(angles[k]); }, compare);
-    // The noise where it matters: at the edges that theory predicts, and between; root mean square.
+    // The curves' noise is measured where it matters, at the edges by theory and half-way to them, as a root mean square.
     const double edge = std::min(theory_edge_deg(subject, axis), angles.back());
     const double places[] = {-edge, -0.5 * edge, 0.5 * edge, edge};
     for (const double angle : places) {

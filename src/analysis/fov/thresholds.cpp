@@ -12,6 +12,7 @@
 namespace lfdsim {
 namespace {
 
+/// Returns the curve's value at a position, interpolated linearly, and beyond its ends that of the end.
 double value_at(const Curve& c, double place) {
     const auto after = std::upper_bound(c.at.begin(), c.at.end(), place);
     if (after == c.at.begin()) return c.value.front();
@@ -21,13 +22,14 @@ double value_at(const Curve& c, double place) {
     return c.value[k - 1] + t * (c.value[k] - c.value[k - 1]);
 }
 
-/// Between two places, the first at or above the level, the other below it.
+/// Returns where the line between two points, the first at or above the level, the other below it, crosses the level. The error
+/// is the noise over the slope, and half the distance of the points.
 Limit crossing(const Curve& c, double at, double value, double next, double next_value, double level) {
     const double slope = (next_value - value) / (next - at);
     return {at + (level - value) / slope, std::hypot(c.error / slope, 0.5 * (next - at))};
 }
 
-/// The first place, from the centre to one side, at which the curve falls below the level.
+/// Returns the first position, from the centre to one side, at which the curve falls below the level.
 Limit first_below(const Curve& c, double centre, int side, double level) {
     double at = std::clamp(centre, c.at.front(), c.at.back()), value = value_at(c, at);
     const int count = int(c.at.size());
@@ -46,6 +48,7 @@ Limit first_below(const Curve& c, double centre, int side, double level) {
     return none;
 }
 
+/// Returns the interval about the centre in which the curve is at the level or above.
 Interval about(const Curve& c, double centre, double level) {
     if (value_at(c, std::clamp(centre, c.at.front(), c.at.back())) < level) {
         Limit none;
@@ -61,13 +64,14 @@ double median(std::vector<double> v) {
     return n % 2 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
 }
 
-/// The fall about `expected` as the curve is walked outwards to one side.
+/// Returns the fall near `expected` as the curve is followed outwards to one side.
 Limit fall(const Curve& c, double expected, double reach, int side) {
     Limit none;
     if (!std::isfinite(expected)) {
         none.missing = "there is no edge to look for";
         return none;
     }
+    // Levels inside and outside of the fall: medians of the positions from one to three reaches away
     std::vector<double> inside, outside;
     for (std::size_t k = 0; k < c.at.size(); ++k) {
         const double beyond = side * (c.at[k] - expected);
@@ -84,6 +88,8 @@ Limit fall(const Curve& c, double expected, double reach, int side) {
             fmt::format("there is no clear fall about the edge expected at {:.4g}: from {:.3f} to {:.3f}", expected, top, bottom);
         return none;
     }
+    // The curve must cross the middle of both exactly once within three reaches, and that within one reach of the expected
+    // position.
     std::optional<Limit> found;
     int crossings = 0;
     for (std::size_t n = 0; n + 1 < c.at.size(); ++n) {
@@ -126,7 +132,7 @@ Interval mapped(const Interval& from, const std::function<double(double)>& map) 
 Interval where_at_least(const Curve& c, double centre, double least) { return about(c, centre, least); }
 
 Interval where_steady(const Curve& c, double centre, double most) {
-    Curve steadiness;  // minus the size of the slope
+    Curve steadiness;  // -|slope|: the criterion is then a lower bound
     for (std::size_t k = 0; k + 1 < c.at.size(); ++k) {
         const double step = c.at[k + 1] - c.at[k];
         steadiness.at.push_back(0.5 * (c.at[k] + c.at[k + 1]));
@@ -147,7 +153,7 @@ Interval where_it_falls(const Curve& c, const Falls& expected) {
 
 namespace {
 
-/// The reasons of both limits, once where they are the same.
+/// Returns the reasons of both limits, once if they are the same.
 std::string why_missing(const Interval& i) {
     std::string why = i.low.missing;
     if (!i.high.missing.empty() && i.high.missing != why) why += (why.empty() ? "" : "; ") + i.high.missing;

@@ -11,43 +11,47 @@
 
 namespace lfdsim {
 
-/// An end of an interval. NaN: nowhere, or nowhere that is known, and `missing` says why.
+/// An end of an interval. NaN: there is none, or none that is known, and `missing` says why.
 struct Limit {
     double at = std::numeric_limits<double>::quiet_NaN();
-    double error = std::numeric_limits<double>::quiet_NaN();  // from the curve's noise and half the step between its places
+    double error = std::numeric_limits<double>::quiet_NaN();  // by the curve's noise and half the step between its positions
     std::string missing = {};
     // If no limit was found: how far the criterion is known to be met, the end of the search or an end that is too uncertain.
     double holds_to = std::numeric_limits<double>::quiet_NaN();
-    bool searched_out = false;  // the rule holds as far as was searched
+    bool searched_out = false;  // the criterion is met to the end of the search
 
+    /// Returns the limit, or how far the criterion is known to be met.
     double place() const { return missing.empty() ? at : holds_to; }
 };
 
+/// A connected interval about a centre.
 struct Interval {
     Limit low, high;
-    bool empty = false;  // the rule does not hold at the centre itself: there are no limits
+    bool empty = false;  // the criterion is not met at the centre: there are no limits
 };
 
-/// Takes away each end whose error reaches back to the centre that it was sought from: an error as large as the figure leaves none.
+/// Returns the interval without those ends that are no farther from the centre than their error.
 Interval known(Interval, double centre);
 
-/// The interval with its limits in another measure of the place, rising or falling; errors to first order.
+/// Returns the interval in another coordinate, a rising or falling function of the present one; errors to first order.
 Interval mapped(const Interval&, const std::function<double(double)>&);
 
+/// A curve given at points.
 struct Curve {
-    std::vector<double> at;     // rising, at least two
-    std::vector<double> value;  // of the same length
+    std::vector<double> at;     // ascending, at least two
+    std::vector<double> value;  // one at each position
     double error = 0;           // standard deviation of each value
 };
 
-/// The interval in which the curve is `least` or more.
+/// Returns the interval about the centre in which the curve is `least` or more.
 Interval where_at_least(const Curve&, double centre, double least);
 
-/// The interval in which the curve rises or falls by `most` or less per unit. Slopes count in the middle between two places.
+/// Returns the interval about the centre in which the curve changes by `most` or less per unit. Slopes are assigned half-way
+/// between two positions.
 Interval where_steady(const Curve&, double centre, double most);
 
-/// The expected falls of a curve, from other sources: low to the left and high to the right of the centre; and their extent to
-/// either side.
+/// The positions, known from elsewhere, at which a curve is expected to fall, to the left (low) and to the right (high) of the
+/// centre; and the reach of each fall to either side of its position.
 struct Falls {
     double low, high, reach;
 };
@@ -60,11 +64,11 @@ struct Falls {
 /// amount by which both limits lie to one side of those.
 Interval where_it_falls(const Curve&, const Falls&);
 
-/// The part of an interval above 0, or below it: its other end is 0 where it reaches across. Empty, with that reason, where it does
-/// not reach that side; an end nearer to 0 than its error is none.
+/// Returns the part of an interval above 0, or below it; its other end is 0 if the interval contains 0. If nothing of it lies on
+/// that side it is empty, for the reason `nothing_there`. An end no farther from 0 than its error is removed.
 Interval on_side_of_zero(Interval, bool above, const std::string& nothing_there);
 
-/// The interval as a figure of a measure, which is missing where a limit is.
+/// Returns the interval as a figure, which is missing if a limit is.
 FigureValue figure_of(const Interval&);
 
 }  // namespace lfdsim
