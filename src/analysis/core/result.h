@@ -1,5 +1,5 @@
 // Results of a measure: figures, curves, pictures. Floor 3, public as a part of measure.h: plain data.
-
+//
 // A measure states each figure once, by Result::add(): the number, error and reason for scripts and the report's line follow from
 // it.
 #pragma once

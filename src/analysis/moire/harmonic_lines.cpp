@@ -1,3 +1,5 @@
+// Waves of single harmonics of the panel. docs/measures.md, "Moire".
+
 #include "analysis/moire/harmonic_lines.h"
 
 #include "analysis/resolution/fourier.h"
@@ -8,18 +10,17 @@
 #include <cmath>
 #include <functional>
 
-// docs/measures.md, "Moire".
 namespace lfdsim {
 namespace {
 
 constexpr int lines_a_set = LineEnds::rows * LineEnds::rows;
 constexpr double all_lines = double(independent_sets) * lines_a_set;
-constexpr int finest_order = 800;       // of harmonics; of finer ones, of pixels that hardly shine, no wave is looked for
+constexpr int finest_order = 800;       // of harmonics; finer ones, of pixels with a tiny aperture ratio, are left out
 constexpr int most_squares = 2048;      // along a cell
-constexpr double least_share = 1e-3;    // of a harmonic in the mean light: what is less is left out
-constexpr double least_part = 0.01;     // of a wave, that another harmonic must give to be looked at by itself
-constexpr double least_counted = 1e-3;  // of a wave: what a harmonic gives that is less than least_part adds to the error alone
-constexpr double surely = 4;            // standard deviations
+constexpr double least_share = 1e-3;    // |c_K|: weaker harmonics are left out
+constexpr double least_part = 0.01;     // of the strongest harmonic's amplitude: from here on a harmonic is measured by itself
+constexpr double least_counted = 1e-3;  // of a wave's contrast: harmonics from here to least_part add to the error only
+constexpr double surely = 4;            // standard deviations of noise from which a contribution is significant
 
 }  // namespace
 
@@ -27,10 +28,12 @@ LineEnds::LineEnds(const WhiteSeen& screen, std::int64_t seed, const Vec3d& eye,
     : width_mm(window.width_mm()), height_mm(window.height_mm()), paths(screen.paths()) {
     std::vector<std::vector<std::vector<LineEnd>>> by_row(paths.size(), std::vector<std::vector<LineEnd>>(rows));
     parts.run(rows, [&](int row) {
+        // Each line has a random position in its square and random angles at the diffuser; all paths of light share them.
         for (int set = 0; set < independent_sets; ++set)
             for (int column = 0; column < rows; ++column) {
                 const std::uint64_t number = (std::uint64_t(set) * rows + std::uint64_t(row)) * rows + std::uint64_t(column);
-                const auto random = [&](std::uint64_t n) {  // other lines than those of WhiteLines
+                // Bit 31 makes the numbers differ from those of WhiteLines.
+                const auto random = [&](std::uint64_t n) {
                     return counted_random((std::uint64_t(seed) << 32) + (std::uint64_t(1) << 31) + 4 * number + n + 1);
                 };
                 const double x = (column + random(0)) / rows - 0.5, y = (row + random(1)) / rows - 0.5,
@@ -52,6 +55,7 @@ HarmonicLines::HarmonicLines(const LineEnds& ends, const WhiteSeen& screen, std:
     for (std::size_t path = 0; path < ends.paths.size(); ++path) {
         const WhitePanel* white = screen.white(path, mixture);
         if (!white) continue;
+        // The noise of a mean of light times a random phase is sqrt(sum of light^2)/lines.
         double light = 0, squares = 0;
         for (const LineEnd& line : ends.paths[path]) {
             light += line.light;
@@ -61,6 +65,7 @@ HarmonicLines::HarmonicLines(const LineEnds& ends, const WhiteSeen& screen, std:
         noise_[path] = std::sqrt(squares) / all_lines;
         const auto [highest_k, highest_l] = white->highest_order();
         const int last_k = std::min(highest_k, finest_order), last_l = std::min(highest_l, finest_order);
+        // At least four squares for each order, so that sinc(k/n), by which squares weaken a harmonic, stays near 1.
         CellBins cell{double(white->cell()[0]), double(white->cell()[1]), 32};
         while (cell.squares < most_squares && cell.squares < 4 * std::max(last_k, last_l)) cell.squares *= 2;
         cells_[path] = cell;
@@ -86,7 +91,9 @@ WaveSums HarmonicLines::sums(const Harmonic& harmonic, const Frequency& f) const
     return result;
 }
 
-// Lines are gathered in squares by where in the cell they end: the transform of the squares has what all harmonics give.
+// One transform gives the contributions of all harmonics to a wave: line ends, with light exp(-2 pi i f.r), are collected in
+// squares by their position in the cell, and the order (-k, -l) of the squares' transform is the sum of light exp(2 pi i (K.P -
+// f.r)).
 std::vector<HarmonicLines::HarmonicShare> HarmonicLines::parts(const Frequency& f, double least) const {
     std::vector<HarmonicShare> found;
     for (std::size_t path = 0; path < cells_.size(); ++path) {
@@ -105,6 +112,7 @@ std::vector<HarmonicLines::HarmonicShare> HarmonicLines::parts(const Frequency& 
         for (const Harmonic& h : harmonics_) {
             if (h.path != path || 2 * std::abs(h.c) < least) continue;
             const std::size_t at = std::size_t((n - h.l) % n) * std::size_t(n) + std::size_t((n - h.k) % n);
+            // Squares weaken a harmonic by sinc(k/n) sinc(l/n).
             const double mean = std::abs(plane[at]) / (sinc(double(h.k) / n) * sinc(double(h.l) / n)) / all_lines;
             if (mean > surely * noise_[path]) found.push_back({&h, std::abs(h.c) * mean});
         }
@@ -118,6 +126,8 @@ std::optional<HarmonicLines::MeasuredWave> HarmonicLines::near(const Frequency& 
     if (found.empty()) return {};
     const Harmonic& harmonic = *found.front().harmonic;
     MeasuredWave wave{sums(harmonic, f), std::abs(harmonic.c) * noise_[harmonic.path], 0};
+    // Harmonics whose waves are within 0.3 periods of the window of the strongest one's are part of the wave; from 0.15 to 0.6
+    // periods it is not clear.
     const Frequency own = wave.sums.peak(f);
     double left_out = 0;  // squares
     for (std::size_t n = 1; n < found.size(); ++n) {
@@ -129,7 +139,7 @@ std::optional<HarmonicLines::MeasuredWave> HarmonicLines::near(const Frequency& 
         const Frequency at = other.peak(f);
         const double apart = std::hypot((at[0] - own[0]) * ends_.width_mm, (at[1] - own[1]) * ends_.height_mm) / WaveSums::one_wave;
         if (apart <= 1) wave.sums.add(other);
-        if (apart > 0.5 && apart < 2) wave.unclear += found[n].amplitude;  // the window does not tell whether they are one
+        if (apart > 0.5 && apart < 2) wave.unclear += found[n].amplitude;
     }
     wave.unclear = std::sqrt(wave.unclear * wave.unclear + left_out);
     return wave;

@@ -1,3 +1,5 @@
+// The measure of moire: its figures, texts and map. docs/measures.md, "Moire".
+
 #include "analysis/moire/moire.h"
 
 #include "analysis/core/channel_pixels.h"
@@ -10,13 +12,13 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/measures.md, "Moire".
 namespace lfdsim {
 namespace {
 
 constexpr int map_side = 64, map_lines = 256;  // squares along each axis, and lines in each
 
-/// The luminance, mixture 0, of the screen's middle as it is seen, over some periods. Takes map_side parts.
+/// Returns a map of the luminance (mixture 0) of the screen's middle, `side` mm wide and high, as the eye sees it. Takes map_side
+/// parts.
 ColourMap moire_map(const WhiteSeen& screen, const Vec3d& eye, double side, Parts& parts) {
     const std::vector<Choice> choices = even_choices(map_lines);
     std::vector<double> values(std::size_t(map_side) * map_side);
@@ -55,9 +57,9 @@ struct WaveEstimates {
     Estimate period_mm, direction_deg, seen, contrast;
 };
 
-/// The figures of a wave, and their lines in the report.
+/// A figure of a wave, and its line in the report.
 struct WaveFigure {
-    const char* name;
+    const char* name;  // for scripts, after the path
     Estimate WaveEstimates::*of;
     const char *label, *unit, *remark;
 };
@@ -71,6 +73,7 @@ constexpr WaveFigure wave_figures[] = {
     {"contrast_unfiltered", &WaveEstimates::contrast, "contrast before the eye", "",
      "theory: for lenses without aberrations; aberrations blur the pixels"}};
 
+/// Adds a wave's figures for scripts, under a path that ends with a dot.
 void add_wave(Result& result, const std::string& path, const WaveEstimates& wave, bool with_errors, const std::string& missing) {
     for (const WaveFigure& f : wave_figures) {
         FigureValue value(wave.*f.of, missing);
@@ -79,6 +82,7 @@ void add_wave(Result& result, const std::string& path, const WaveEstimates& wave
     }
 }
 
+/// Adds a wave's lines of the report's table.
 void add_lines(Result& result, const WaveEstimates& found, const WaveEstimates& theory, const std::string& missing) {
     for (const WaveFigure& f : wave_figures)
         result.add_line({found.*f.of, missing}, {.label = fmt::format("Moire of a white screen: {}", f.label),
@@ -87,18 +91,20 @@ void add_lines(Result& result, const WaveEstimates& found, const WaveEstimates& 
                                                  .remark = f.remark});
 }
 
+/// Returns a wave of theory, with contrast 0 if there is none.
 WaveEstimates theory_wave(const std::optional<Beat>& beat) {
     if (!beat) return {{nan, 0}, {nan, 0}, {0, 0}, {0, 0}};
     return {{period_mm(beat->frequency), 0}, {direction_deg(beat->frequency), 0}, {beat->seen, 0}, {beat->contrast, 0}};
 }
 
-/// The pattern in the luminance or in one channel.
+/// The pattern in the luminance or in one channel, as measured.
 struct Pattern {
     WaveEstimates found{{nan, nan}, {nan, nan}, {0, 0}, {0, 0}};
     MoireSearch search;
     std::string missing;  // why there is no period
 };
 
+/// Finds the pattern; if no wave is detected, its contrast is 0 with the least detectable one as its error.
 Pattern pattern_of(const WhiteLines& lines, const HarmonicLines& harmonics, const std::optional<Beat>& theory,
                    double mm_per_degree) {
     Pattern pattern;
@@ -115,7 +121,7 @@ Pattern pattern_of(const WhiteLines& lines, const HarmonicLines& harmonics, cons
     return pattern;
 }
 
-/// Waves that are about as strong, and what cannot be measured.
+/// Adds waves that may be as strong, and a remark if theory's wave is too long to be measured.
 void remark_on(const Pattern& pattern, const std::optional<Beat>& theory, double side, Result& result) {
     Json& others = result.figures["as_strong"] = Json::array();
     for (const MeasuredBeat& m : pattern.search.as_strong) {
@@ -132,7 +138,7 @@ void remark_on(const Pattern& pattern, const std::optional<Beat>& theory, double
             "the screen.");
 }
 
-/// Luminance, and the channels if they differ.
+/// Returns the mixtures that are measured: the luminance, and each channel if they differ.
 std::vector<ChannelWeights> mixtures(const Display& d) {
     if (!has_colours(d)) return {luminance_weights};
     return {luminance_weights, only(0), only(1), only(2)};
@@ -158,6 +164,7 @@ Result measure_moire(Subject& s, Job& job) {
         job.advance(moire_steps(s));
         return result;
     }
+    // The same lines serve the luminance and the channels; mixture 0 is the luminance.
     const Vec3d eye{0, 0, distance};
     const Window window = middle_of_screen(d, s.geometry(), distance);
     result.figures["window_mm"] = {window.width_mm(), window.height_mm()};

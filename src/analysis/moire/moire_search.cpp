@@ -1,3 +1,5 @@
+// The search for the strongest wave of a white screen. docs/measures.md, "Moire".
+
 #include "analysis/moire/eye_filter.h"
 #include "analysis/moire/moire.h"
 #include "analysis/resolution/fourier.h"
@@ -8,12 +10,11 @@
 #include <cmath>
 #include <functional>
 
-// docs/measures.md, "Moire".
 namespace lfdsim {
 namespace {
 
-constexpr double window_deg = 10, finest_cycles_per_degree = 50;
-constexpr double least_periods = 3;  // in the window: fewer are not told from their mirror image, the wave of frequency -f
+constexpr double window_deg = 10, finest_cycles_per_degree = 50;  // the window's side, and the finest waves that are searched for
+constexpr double least_periods = 3;  // in the window: with fewer, a wave cannot be told from its mirror image of the frequency -f
 constexpr double least_squares = 500'000, most_along = 1000;  // in the window: with fewer lines of sight their noise hides waves
 constexpr std::size_t most_candidates = 8;
 constexpr double least_over_noise = 6;  // the greatest of a million frequencies' noise is at some 5
@@ -27,11 +28,12 @@ bool is_measurable(const Frequency& f, const Window& w) {
     return std::hypot(f[0] * w.width_mm(), f[1] * w.height_mm()) >= least_periods;
 }
 
-/// The frequencies where the squares' transform is greatest after the eye's filter, the strongest first.
+/// Returns the candidates: local maxima of the squares' transform after the eye's filter, the strongest first.
 std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_degree) {
     const Window& w = lines.window();
     int n = 1;
     while (n < std::max(w.columns, w.rows)) n *= 2;
+    // The squares' changes, filled up with zeros to a power of two for the transform
     std::vector<std::complex<double>> plane(std::size_t(n) * std::size_t(n));
     const std::vector<double> change = lines.weighted_change();
     for (int y = 0; y < w.rows; ++y)
@@ -43,6 +45,7 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
         const auto signed_order = [&](int order) { return order < n / 2 ? order : order - n; };
         return Frequency{signed_order(k) / (n * w.square_mm), signed_order(l) / (n * w.square_mm)};
     };
+    // Contrast is twice the amplitude over the mean. Squares average a wave, by sinc along each axis.
     std::vector<double> contrast(plane.size()), seen(plane.size());
     const double scale = 2 / (double(change.size()) * lines.mean());
     for (int l = 0; l < n; ++l)
@@ -51,10 +54,10 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
             const double cycles = std::hypot(f[0], f[1]) * mm_per_degree;
             if (!is_measurable(f, w) || cycles > finest_cycles_per_degree) continue;
             const std::size_t here = std::size_t(l) * std::size_t(n) + std::size_t(k);
-            contrast[here] =
-                scale * std::abs(plane[here]) / (sinc(f[0] * w.square_mm) * sinc(f[1] * w.square_mm));  // squares average waves
+            contrast[here] = scale * std::abs(plane[here]) / (sinc(f[0] * w.square_mm) * sinc(f[1] * w.square_mm));
             seen[here] = contrast[here] * eye_filter(cycles);
         }
+    // Maxima over 5 x 5 frequencies, of each pair f and -f one
     std::vector<Candidate> all;
     const auto place = [&](int k, int l) { return std::size_t((l + n) % n) * std::size_t(n) + std::size_t((k + n) % n); };
     for (int l = 0; l < n; ++l)
@@ -72,7 +75,7 @@ std::vector<Candidate> strongest_waves(const WhiteLines& lines, double mm_per_de
     return all;
 }
 
-/// The wave near a candidate, without a set of lines.
+/// Returns the wave near a frequency from all sets of lines but one (-1: from all).
 Beat beat_of(const HarmonicLines::MeasuredWave& wave, const Frequency& from, double mean, double mm_per_degree, int without) {
     const Frequency f = wave.sums.peak(from, without);
     Beat beat{f, 2 * std::abs(wave.sums.wave(f, without)) / mean, 0};
@@ -80,6 +83,7 @@ Beat beat_of(const HarmonicLines::MeasuredWave& wave, const Frequency& from, dou
     return beat;
 }
 
+/// Returns the wave near a frequency with errors by the jackknife over the sets; those of contrast include what is unclear.
 MeasuredBeat measured(const HarmonicLines::MeasuredWave& wave, const Frequency& from, double mean, double mm_per_degree) {
     std::array<Beat, independent_sets + 1> found;  // without none, and without each set
     for (int without = -1; without < independent_sets; ++without)
@@ -90,6 +94,7 @@ MeasuredBeat measured(const HarmonicLines::MeasuredWave& wave, const Frequency& 
     for (std::size_t k = 0; k < 2; ++k)
         m.frequency_error[k] = figure([&](const Beat& b) { return b.frequency[k]; }).error + wave.sums.closest()[k];
     const double error = std::hypot(m.frequency_error[0], m.frequency_error[1]), period = period_mm(m.beat.frequency);
+    // Period 1/f: an error d of the frequency makes d period^2 of it, and at most d period, in radians, of the direction.
     m.period_mm = {period, error * period * period};
     m.direction_deg = {direction_deg(m.beat.frequency), std::min(error * period / degree, 90.)};
     const double unclear = 2 * wave.unclear / mean;
@@ -105,10 +110,10 @@ MeasuredBeat measured(const HarmonicLines::MeasuredWave& wave, const Frequency& 
 
 Window middle_of_screen(const Display& d, const Geometry& g, double eye_mm) {
     const double away = eye_mm - g.vertex_plane_mm, finest = mm_per_degree(away) / (2 * finest_cycles_per_degree);
-    const double scale = away / eye_mm;  // the panel, as it is seen in the vertex plane
+    const double scale = away / eye_mm;  // of the panel, projected from the eye onto the vertex plane
     double half_x = std::min(0.5 * window_deg * mm_per_degree(away), 0.5 * g.panel_width_mm * scale),
            half_y = std::min(0.5 * window_deg * mm_per_degree(away), 0.5 * g.panel_height_mm * scale);
-    // Within the array's rectangle, which may be turned and moved
+    // The window is scaled down until it lies within the array's rectangle, which may be rotated and shifted.
     const Lattice<double>& lattice = g.lattice;
     const double move_x = lattice.cos_turn * lattice.offset[0] + lattice.sin_turn * lattice.offset[1],
                  move_y = lattice.cos_turn * lattice.offset[1] - lattice.sin_turn * lattice.offset[0];
@@ -118,7 +123,7 @@ Window middle_of_screen(const Display& d, const Geometry& g, double eye_mm) {
         std::min({1., (0.5 * g.array_width_mm - std::abs(move_x)) / wide,
                   d.array.lattice == LatticeKind::strips ? 1. : (0.5 * g.array_height_mm - std::abs(move_y)) / high});
     const double inside = 2 * std::max(fits, 0.);
-    // Small windows have finer ones, for as many lines of sight.
+    // Small windows have finer squares, so that there are as many lines of sight.
     const double small = inside * std::max(std::sqrt(half_x * half_y / least_squares), std::max(half_x, half_y) / most_along),
                  square = small > 0 ? std::min(finest, small) : finest;
     const auto squares = [&](double half) { return std::max(1, int(inside * half / square)); };
@@ -128,6 +133,8 @@ Window middle_of_screen(const Display& d, const Geometry& g, double eye_mm) {
 MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, const std::optional<Beat>& theory,
                        double mm_per_degree) {
     MoireSearch search;
+    // A sum of random phases has a standard deviation of noise/sqrt(2) in each of its components; contrast is twice the
+    // amplitude.
     search.least = 2 * least_over_noise * lines.noise() / std::sqrt(2.);
     std::vector<MeasuredBeat> all;
     const auto measure = [&](const Frequency& from, double contrast) {
@@ -138,9 +145,9 @@ MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, 
         if (m.beat.contrast > least && is_measurable(m.beat.frequency, lines.window())) all.push_back(m);
     };
     for (const Candidate& c : strongest_waves(lines, mm_per_degree)) measure(c.frequency, c.contrast);
-    // It may be too weak to stand out of the noise of all other waves.
+    // Theory's wave may be too weak to be a maximum of the squares' transform.
     if (theory && is_measurable(theory->frequency, lines.window())) measure(theory->frequency, theory->contrast);
-    // Symmetry makes waves of the same period that may be equally strong: the one of the least direction is taken.
+    // Symmetry makes waves of the same period that may be equally strong: of those the one of the least direction is reported.
     if (all.empty()) return search;
     const auto strongest = std::ranges::max_element(all, {}, [](const MeasuredBeat& m) { return m.seen.value; });
     for (const MeasuredBeat& m : all) {
@@ -151,6 +158,7 @@ MoireSearch find_moire(const WhiteLines& lines, const HarmonicLines& harmonics, 
         if (!search.strongest || rank_deg(m.direction_deg.value) < rank_deg(search.strongest->direction_deg.value))
             search.strongest = m;
     }
+    // Other waves, at least a period of the window apart, that may be as strong
     for (const MeasuredBeat& m : all) {
         const bool another = std::hypot(m.beat.frequency[0] - search.strongest->beat.frequency[0],
                                         m.beat.frequency[1] - search.strongest->beat.frequency[1]) > 1 / lines.window().width_mm();

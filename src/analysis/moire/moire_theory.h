@@ -11,31 +11,33 @@
 
 namespace lfdsim {
 
+/// Returns 1/|f|, mm.
 double period_mm(const Frequency&);
-/// The direction of the wave vector, counter-clockwise from +x, 0 to below 180.
+/// Returns the direction of the wave vector, degrees counter-clockwise from +x, from 0 to below 180.
 double direction_deg(const Frequency&);
-/// The direction by which equally strong waves are ranked: within a tenth of a degree of 180 it is below 0, so that rounding
-/// makes no 180 of 0.
+/// Returns the direction by which equally strong waves are ranked: within a tenth of a degree of 180 it is below 0, so that
+/// rounding does not turn 0 into 180.
 inline double rank_deg(double direction_deg) { return direction_deg < 179.9 ? direction_deg : direction_deg - 180; }
 
-/// A component of the pattern. Contrast is Michelson's, of this component alone: without and with the eye's filter.
+/// A component of the pattern.
 struct Beat {
     Frequency frequency{};
-    double contrast = 0, seen = 0;
-    Frequency turned_per_rad{};  // periods by which a diffuser's angle about the display's y and x moves it
+    double contrast = 0, seen = 0;  // Michelson's, of this component alone: before and after the eye's filter
+    Frequency turned_per_rad{};     // periods by which a diffuser's angle about the display's y and x moves it
 };
 
-/// White panels as an eye on axis sees them through paraxial lenses, `eye_mm` from the panel.
+/// The waves of a white panel that an eye on axis, `eye_mm` from the panel, sees through paraxial lenses, in light of the given
+/// channel weights.
 class MoireTheory {
   public:
     MoireTheory(const Display&, const Geometry&, double eye_mm, const ChannelWeights& = luminance_weights);
 
-    /// The coarsest beat of the harmonic with (k, l) periods in a cell of the panel's with the lens lattice.
+    /// Returns the lowest frequency at which the panel's harmonic with (k, l) periods in a cell beats with the lens lattice.
     Frequency beat(int k, int l) const;
 
-    /// The strongest beat after the eye's filter; of those of its period that are within 1 % as strong, as symmetry
-    /// makes them (and of all that are exactly as strong), that of the least direction. None where the panel has no
-    /// structure, or where all are too fine for the eye.
+    /// Returns the strongest beat after the eye's filter. Of those of its period that are within 1 % as strong, as symmetry makes
+    /// them, and of all that are exactly as strong, it is the one of the least direction. Nothing if the panel has no structure,
+    /// or if all beats are too fine or too weak for the eye.
     std::optional<Beat> strongest(const EyeFilter& = eye_for_luminance) const;
 
   private:
@@ -58,8 +60,8 @@ class MoireTheory {
     const Geometry& geometry_;
     WhitePanel panel_;
     double eye_mm_;
-    WaveVector scale_;  // panel places per place of the vertex plane, along the array's x' and y'
-    WaveVector glass_;  // g/f, by how much a lens moves the panel place with the place in the lens
+    WaveVector scale_;  // e: displacement on the panel per displacement of lens and aim in the vertex plane, along x' and y'
+    WaveVector glass_;  // g/f: displacement on the panel per displacement within a lens
 };
 
 }  // namespace lfdsim

@@ -19,6 +19,8 @@ std::complex<double> WaveSums::wave(const Frequency& f, int without) const {
         turn_x[std::size_t(k)] = std::polar(1., -2 * pi * step_x * (k + 0.5 - 0.5 * side));
         turn_y[std::size_t(k)] = std::polar(1., -2 * pi * step_y * (k + 0.5 - 0.5 * side));
     }
+    // Over a block the wave turns by step_x and step_y periods: its phase is that of the block's middle, and sinc makes up for
+    // the average.
     std::complex<double> sum = 0;
     for (std::size_t j = 0; j < side; ++j) {
         std::complex<double> row = 0;
@@ -33,6 +35,7 @@ std::complex<double> WaveSums::wave(const Frequency& f, int without) const {
 Frequency WaveSums::peak(const Frequency& from, int without) const {
     Frequency best = from;
     double most = std::abs(wave(best, without));
+    // Hill climbing: a step along an axis is taken while it raises the amplitude, then steps are halved.
     for (double step = 0.5; step > finest_step; step *= 0.5)
         for (bool moved = true; moved;) {
             moved = false;

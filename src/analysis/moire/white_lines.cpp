@@ -14,6 +14,7 @@ constexpr int lines_a_square = 8;
 
 }  // namespace
 
+// w(u) = 0.42 - 0.5 cos(2 pi u) + 0.08 cos(4 pi u), over its mean 0.42
 double blackman(double u) { return 1 - (0.5 * std::cos(2 * pi * u) - 0.08 * std::cos(4 * pi * u)) / 0.42; }
 
 // splitmix64 (Steele, Lea, Flood 2014)
@@ -69,6 +70,7 @@ std::vector<WhiteLines> WhiteLines::of(const WhiteSeen& screen, std::int64_t see
         for (int k = 0; k < count; ++k) all.push_back(blackman((k + 0.5) / count));
         return all;
     };
+    // Squares have the window's weight at their middle.
     const std::vector<double> across = weights(window.columns), up = weights(window.rows);
     const auto columns = std::size_t(window.columns), rows = std::size_t(window.rows), squares = columns * rows;
     struct RowSums {

@@ -1,7 +1,8 @@
-// Lines of sight from one eye to a white panel, spread over a window of the screen, and waves in the light that they see. Floor 3.
+// Lines of sight from one eye to a white panel, spread over a window of the screen, and the light that they see. Floor 3.
 //
-// The window is cut into equal squares; each set of lines has one through each square, at a random place. The mean of light times a
-// wave over such lines is that over the plane, whatever else the light holds: unlike evenly spaced points they make no false beats.
+// The window is divided into equal squares; each set of lines has one through each square, at a random position. The mean of
+// light times a wave over such lines is, in expectation, the mean over the plane, at any frequency: evenly spaced lines would
+// beat with lenses and pixels.
 #pragma once
 #include "analysis/core/estimate.h"
 #include "analysis/core/eye_rays.h"
@@ -14,7 +15,7 @@
 
 namespace lfdsim {
 
-/// A rectangle of the vertex plane about the display's axis, in squares of `square_mm`.
+/// A rectangle of the vertex plane about the display's axis, divided into squares.
 struct Window {
     int columns, rows;
     double square_mm;
@@ -22,39 +23,39 @@ struct Window {
     double height_mm() const { return rows * square_mm; }
 };
 
-/// Blackman's window over [0, 1], 1 in the mean.
+/// Returns Blackman's window over [0, 1], normalised to a mean of 1.
 double blackman(double u);
 
-/// A number in [0, 1) for each counter.
+/// Returns a random number in [0, 1) that depends on the counter alone.
 double counted_random(std::uint64_t counter);
 
-/// Light that a line of sight brings from a white panel, over the panel's own along its normal.
+/// The light that a line of sight brings from a white panel, relative to the panel's along its normal.
 struct WhiteLight {
-    double plain = 0;  // of a panel without subpixels and black matrix: the mean
-    double seen = 0;   // where the line ends
+    double plain = 0;  // of a panel without subpixels and black matrix
+    double seen = 0;   // of the panel at the line's end
 };
 
-/// A white panel behind the lenses, each channel in its own light. It is looked at in one or several mixtures of its channels, such
-/// as luminance and red alone: they share the lines, which take most of the time.
+/// A white panel seen through the lenses, each channel in its light where glass disperses. It is seen in one or several mixtures
+/// of its channels, such as luminance and red alone, which share the lines, since these take most of the time.
 class WhiteSeen {
   public:
-    /// `green`: the display's own geometry.
+    /// `green`: the display's geometry. `mixtures`: the weights of red, green and blue in each.
     WhiteSeen(const Display&, const Geometry& green, const std::vector<ChannelWeights>& mixtures);
     std::size_t mixtures() const { return mixtures_; }
 
-    /// Looks along the line from an eye that aims at (x, y) of the vertex plane, with the diffuser's numbers a and b: light[m] is
-    /// that of mixture m.
+    /// Traces the line from an eye that aims at (x, y) of the vertex plane, mm, with the diffuser's numbers a and b in [-1, 1];
+    /// light[m] becomes the light of mixture m.
     void look(const Vec3d& eye, double x, double y, double a, double b, std::vector<WhiteLight>& light) const;
 
-    /// Colours that take the same path count as one.
+    /// Returns the number of light paths; channels that take the same path count once.
     std::size_t paths() const { return paths_.size(); }
-    /// The white panel of the part of a mixture that takes a path; null if no part does.
+    /// Returns the white panel of the channels of a mixture that take a path; null if none does.
     const WhitePanel* white(std::size_t path, std::size_t mixture) const {
         const std::optional<WhitePanel>& white = paths_[path].white[mixture];
         return white ? &*white : nullptr;
     }
-    /// The end of a line of sight in the light of one path: columns and rows of the panel from its corner; the mean light there
-    /// is 0 where the line is blocked or ends beside the panel.
+    /// The end of a line of sight in the light of one path: pixels from the panel's top left corner; `light`, of a panel without
+    /// structure, is 0 if the line is blocked or ends beside the panel.
     struct End {
         double column = 0, row = 0, light = 0;
     };
@@ -75,19 +76,20 @@ class WhiteSeen {
 /// The light of a window of the screen in one mixture, by lines of sight.
 class WhiteLines {
   public:
-    /// Traces the lines and makes one object for each mixture. Takes window.rows parts.
+    /// Traces eight lines through each square, and returns an object for each mixture. Takes window.rows parts.
     static std::vector<WhiteLines> of(const WhiteSeen&, std::int64_t seed, const Vec3d& eye, const Window&, Parts&);
 
     const Window& window() const { return window_; }
 
-    /// The mean luminance, weighted as waves are, of a panel without structure.
+    /// Returns the mean light of a panel without structure, weighted by the window as waves are.
     double mean() const { return mean_; }
 
-    /// The change of light in each square by subpixels and black matrix, all sets together, times weights that fall to 0 at the
-    /// window's border: Blackman's along both axes, 1 in the mean.
+    /// Returns the change of light in each square that subpixels and black matrix make, over all lines, times Blackman's window
+    /// along both axes; row by row, upwards.
     const std::vector<double>& weighted_change() const { return change_; }
 
-    /// Standard deviation of a wave's amplitude over mean(), all sets together, if each line's light were chance.
+    /// Returns the standard deviation of a wave's amplitude, relative to mean(), if each line's change of light had a random
+    /// phase.
     double noise() const { return noise_; }
 
   private:
