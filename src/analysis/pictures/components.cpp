@@ -15,6 +15,7 @@
 namespace lfdsim {
 namespace {
 
+/// Returns the picture of a panel, or the crop of it. Throws Stopped.
 Image picture(const Display& d, const SummedPanel& panel, RenderOptions how, std::optional<Rect> crop, const Job& job) {
     Quiet quiet(job);
     how.crop = crop;
@@ -36,7 +37,7 @@ Display diffuser_alone(const Display& d, const Geometry& g) {
     return bare;
 }
 
-/// The middle of a picture, `width` x `height` pixels at most.
+/// Returns the middle of a picture, at most `width` x `height` pixels.
 Rect middle(int columns, int rows, int width, int height) {
     width = std::min(width, columns), height = std::min(height, rows);
     const int x = (columns - width) / 2, y = (rows - height) / 2;
@@ -49,7 +50,7 @@ Image cut(const Image& from, const Rect& r) {
     return part;
 }
 
-/// Pixels an integral number of times as wide.
+/// Returns a picture with pixels a whole number of times as wide and high.
 Image enlarged(const Image& image, int times) {
     Image big(image.width * times, image.height * times);
     for (int y = 0; y < big.height; ++y)
@@ -75,6 +76,7 @@ Result measure_components(Subject& s, Job& job) {
         options.cell_pixels = cell;
         return ShownPanel(shown_texels(pattern("checkerboard", d, s.geometry(), options), d.panel.encoding), s.threads());
     };
+    // Checks an eighth of a lens wide for the lenses, four lenses wide for the diffuser
     const int fine = std::max(1, lens_pixels / 8), coarse = 4 * lens_pixels;
     Display lenses = d;
     lenses.diffuser.reset();

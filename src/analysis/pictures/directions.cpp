@@ -12,18 +12,20 @@
 namespace lfdsim {
 namespace {
 
-constexpr int sheet_width = 480, strip_width = 400;  // pixels of one picture
+constexpr int sheet_width = 480, strip_width = 400;  // pixels, of one picture of the contact sheets and of the animation
 constexpr int views = 7, frames = 32;
 
-/// The farthest views: 30 degrees, or somewhat beyond the field of view where that is wider.
+/// Returns the angle of the farthest views: 30 degrees, or 5 degrees beyond the field of view if that is more.
 double most_deg(const Subject& s) { return std::clamp(std::ceil(0.5 * s.theory(0).fov_deg) + 5, 30., 75.); }
 
+/// Returns the display with a camera of that many columns and the same frame.
 Display sized(Display d, int width) {
     const double per = double(width) / double(d.camera.resolution[0]);
     d.camera.resolution = {width, std::max<std::int64_t>(16, std::lround(per * double(d.camera.resolution[1])))};
     return d;
 }
 
+/// A view and the photograph from the same position.
 struct Pair {
     Image simulated, photograph;
 };

@@ -17,10 +17,12 @@ std::vector<EyeBox> inverse_eyes(const Display& display, const Geometry& geometr
     const double made_for = display.content.viewing_distance_mm;
     if (std::isfinite(made_for)) options.viewing_distance_mm = made_for;
     const Subject subject(display, {}, options);
+    // The zone by theory, which serves if the search finds none
     const double z = subject.viewing_distance_mm(), eye = z - geometry.rear_principal_mm;
     const ParaxialZone theory = paraxial_zone(subject, 0);
     EyeBox box{{-eye * theory.half_slope(eye), 0, z}, {eye * theory.half_slope(eye), 0, z}};
     if (!is_strips(display.array)) box.low[1] = -half_height_mm, box.high[1] = half_height_mm;
+    // The zone by tracing, horizontally: its limits at 1 % wrong rays, else at 50 %
     Subject searched = subject;
     Quiet quiet(job);
     std::array<Interval, 2> limits_of_zone;

@@ -23,7 +23,7 @@ class Projection {
           width_(double(c.resolution[0])),
           height_(double(c.resolution[1])),
           per_slope_(width_ / g.frame_width_mm * axes_.distance_mm) {}
-    /// False: it is beside or behind the camera.
+    /// Projects a point, mm in the display's frame. Returns whether it lies in front of the camera.
     bool operator()(const Vec3d& point, std::array<double, 2>& at) const {
         const Vec3d p = minus(point, position_);
         const double depth = dot(p, axes_.forward);
@@ -62,6 +62,7 @@ Region content_region(const Display& d, const Geometry& g, const ContentScene& s
     const Vec3d centre = scene.centre_mm(), half = scene.half_size_mm();
     const Projection project(d.camera, g);
     const int width = int(d.camera.resolution[0]), height = int(d.camera.resolution[1]);
+    // The bounding rectangle of the projected corners
     double x0 = width, y0 = height, x1 = 0, y1 = 0;
     for (unsigned n = 0; n < 8; ++n) {
         Vec3d corner = centre;
@@ -78,7 +79,7 @@ Region content_region(const Display& d, const Geometry& g, const ContentScene& s
 
 void refuse_depth_in_lenses(const Geometry& g, double depth_mm, const std::string& where) {
     const double bottom = g.base_z_mm - g.vertex_plane_mm, top = g.top_z_mm - g.vertex_plane_mm;
-    if (depth_mm < bottom || depth_mm >= top) return;  // content may stand on them
+    if (depth_mm < bottom || depth_mm >= top) return;  // content at the top of the lenses is in front of them
     throw InputError(where, fmt::format("{} puts the model's centre inside the lenses, which extend from {:.4g} to {:.4g} mm; give "
                                         "a depth in front of or behind them",
                                         depth_mm, bottom, top));
@@ -117,8 +118,9 @@ Likeness likeness(const ExpectedView& view, const Display& seen, const Geometry&
     return compared.likeness;
 }
 
-// Points: another rendering with as many samples has as large an error as the first, independent of it. Filtered: one with four
-// times the strata has a much smaller error.
+// With points, another rendering with as many samples has as large an error as the first, independent of it: the difference is
+// sqrt(2) times either. With filtered light, four times the samples (3844 = 62 x 62 strata at most) have a much smaller error
+// than the first.
 Likeness likeness_error(const Likeness& first, const ExpectedView& view, const Display& seen, const Geometry& geometry,
                         const SummedPanel& panel, double white, const RenderOptions& how, const Job& job) {
     Display again = seen;
