@@ -1,3 +1,5 @@
+// The shares of wrong, mixed and dark lines of sight. docs/measures.md, "Viewing zone".
+
 #include "analysis/zone/zone_search.h"
 
 #include <algorithm>
@@ -5,12 +7,11 @@
 #include <map>
 #include <utility>
 
-// docs/measures.md, "Viewing zone".
 namespace lfdsim {
 namespace {
 
-/// Whether the middle of the elemental image of the lens that the line passes lies on the panel; of a strip, whose image has a
-/// middle line, the point of that beside the end of the line.
+/// Returns whether the middle of the elemental image of the lens that the line passes lies on the panel; of a strip, the point of
+/// the image's middle line beside the line's end.
 bool image_on_panel(const Pickup& pickup, const Panel& panel, const Sight& s) {
     double x = s.lens[0] * pickup.scale, y = s.lens[1] * pickup.scale;
     const Lattice<double>& lattice = pickup.lattice();
@@ -29,7 +30,8 @@ SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Displa
                          std::span<const Choice> choices) {
     const double pixel = d.panel.pixel_pitch_mm;
     std::int64_t aimed = 0, through = 0, dark = 0, wrong = 0;
-    std::map<std::pair<long, long>, std::int64_t> towards;  // lines by the way from their lens to their pixel's, columns and rows
+    // Numbers of lines by the columns and rows from their lens to the owner of their pixel
+    std::map<std::pair<long, long>, std::int64_t> towards;
     for (const Choice& choice : choices) {
         const Sight s = rays.look(eye, choice);
         if (!s.on_screen) continue;
@@ -49,6 +51,7 @@ SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Displa
         const NodalLine owner = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
         if (s.light > 0 && owner.owned) {
             const Lattice<double>& lattice = pickup.lattice();
+            // Columns are counted in halves of the pitch, since staggered rows are shifted by half of it.
             const auto off = optics::to_array(lattice, owner.x - s.lens[0], owner.y - s.lens[1]);
             const std::pair way{std::lround(2 * off.x / lattice.pitch[0]),
                                 std::lround(optics::across(lattice, off.y) / lattice.pitch[1])};

@@ -1,3 +1,5 @@
+// The measure of the viewing zone: figures, maps and plots. docs/measures.md, "Viewing zone".
+
 #include "analysis/zone/zone.h"
 
 #include "analysis/crosstalk/slope_spread.h"
@@ -7,12 +9,12 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/measures.md, "Viewing zone".
 namespace lfdsim {
 namespace {
 
 constexpr const char* missing = "Rays that miss their own lens's elemental image";
 
+/// Adds maps of the shares over viewer positions, as far as `half` mm from the middle along x and y, and their table.
 void add_maps(Result& result, const std::vector<SightShares>& shares, const std::array<double, 2>& half) {
     constexpr int side = ZoneSearch::map_side;
     const auto add = [&](const char* name, const char* title, double SightShares::*share) {
@@ -32,7 +34,7 @@ void add_maps(Result& result, const std::vector<SightShares>& shares, const std:
     result.tables.push_back(std::move(table));
 }
 
-/// Horizontally and vertically, as far as `half` mm.
+/// Adds the zone along x and y, searched as far as `half` mm.
 void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const std::array<double, 2>& half, double distance) {
     const double eye = distance - s.geometry().rear_principal_mm;
     Plot plot{"zone", missing, "viewer position, degrees", "share of rays", {}};
@@ -46,7 +48,7 @@ void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const st
         for (const double mm : zone.places) angles.push_back(degrees(mm));
         const ParaxialZone zone_of = paraxial_zone(s, axis);
         const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
-        // A hexagon's image has a corner above its middle, where theory's pitch has none.
+        // Theory's pitch is the distance of rows; a hexagon's image has a corner above its middle, beyond that.
         const bool corner = axis == 1 && s.display().array.lattice == LatticeKind::hexagon;
         result.figures[name]["theory_deg"] = corner ? Json() : Json{0 - theory, theory};
         for (const std::size_t t : {0u, 1u}) {
@@ -80,10 +82,11 @@ void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const st
     result.plots.push_back(std::move(plot));
 }
 
+/// Adds the zone along the display's axis.
 void add_axis(Result& result, ZoneSearch& search, const Subject& s, double distance) {
     const double rear = s.geometry().rear_principal_mm;
-    const ParaxialZone across = paraxial_zone(s, 0),
-                       up = paraxial_zone(s, imaging_axes(s.display().array) - 1);  // the shorter is the display's
+    // The display's zone along the axis is the shorter of those of its two axes.
+    const ParaxialZone across = paraxial_zone(s, 0), up = paraxial_zone(s, imaging_axes(s.display().array) - 1);
     const ParaxialZone theory = across.reach_per_mm() <= up.reach_per_mm() ? across : up;
     const Zone zone = search.on_axis(theory);
     const std::vector<double> wrong = zone.all(&SightShares::wrong);
@@ -106,7 +109,7 @@ void add_axis(Result& result, ZoneSearch& search, const Subject& s, double dista
         {"zone_distance", {{"distance_mm", zone.places}, {"wrong_share", wrong}, {"dark_share", zone.all(&SightShares::dark)}}});
 }
 
-/// Why a zone is not symmetric, where it is not by more than the stated errors.
+/// Returns a remark if the zone is asymmetric by more than the stated errors; else an empty text.
 std::string aside_remark(const Json& figures) {
     for (const char* axis : {"horizontal", "vertical"}) {
         if (figures.at(axis).is_null()) continue;

@@ -1,27 +1,27 @@
+// The search for the limits of the viewing zone. docs/measures.md, "Viewing zone".
+
 #include "analysis/zone/zone_search.h"
 
 #include "geometry/screen.h"
 
-// docs/measures.md, "Viewing zone".
 namespace lfdsim {
 namespace {
 
 constexpr int curve_points = 181, distance_points = 61;  // odd: the middle is one of them
-constexpr int map_rays = 1024, curve_rays = 4096;
-constexpr int set_rays = 2048;  // of each set where limits are sought
+constexpr int map_rays = 1024, curve_rays = 4096;        // of an eye
+constexpr int set_rays = 2048;                           // of each set, where limits are sought
 
-/// The share of wrong rays at a place on a search's path, lateral in mm or an inverse distance, by all sets of lines.
+/// Returns the wrong share at a position of the search's path (mm aside, or an inverse distance) by all sets of lines.
 using Along = std::function<Estimate(double)>;
 
-/// The limit up to which, from the middle of `places` towards their end (step 1) or start (-1), the share stays at most `most`:
-/// bisected between the last place where it does and the first where it does not. The error reaches to where the share does so
-/// less and plus its own error: far apart where it stays near `most` for long.
+/// Returns the limit up to which, from the middle of `places` towards their end (step 1) or start (-1), the share stays at most
+/// `most`, by bisection between the last position where it does and the first where it does not. The error reaches to where the
+/// share does so less and plus its stated error, which is far away where the share stays near `most` for long.
 Limit limit(const std::vector<double>& places, const std::vector<double>& wrong, int step, double most, const Along& wrong_at) {
     const int middle = int(places.size()) / 2, last = step > 0 ? int(places.size()) - 1 : 0;
     const auto at = [&](int k) { return places[std::size_t(k)]; };
-    const auto first_good = [&](int k) {
-        return wrong[std::size_t(k)] <= most;
-    };  // by one set; NaN: nothing is seen, which is not good
+    // The curve, by one set, tells where to start. NaN, where no light is seen, is not good.
+    const auto first_good = [&](int k) { return wrong[std::size_t(k)] <= most; };
     Limit none;
     if (!first_good(middle)) {
         none.missing = "more rays are wrong even in the middle";
@@ -33,6 +33,8 @@ Limit limit(const std::vector<double>& places, const std::vector<double>& wrong,
         none.missing = "no more rays are wrong within the searched range";
         return none;
     }
+    // Returns the end where the share by all sets, plus `errors` times its error, passes `most`: the search goes back from the
+    // curve's limit to a good position, on to the next bad one, and halves the step between them.
     double precision = 0;
     const auto ends = [&](double errors, int halvings) {
         const auto good = [&](double place) {
@@ -55,14 +57,15 @@ Limit limit(const std::vector<double>& places, const std::vector<double>& wrong,
     return {found, precision + std::max(std::abs(found - early), std::abs(found - late)), {}};
 }
 
+/// Returns `count` positions at equal distances from low to high.
 std::vector<double> even_places(double low, double high, int count) {
     std::vector<double> places;
     for (int k = 0; k < count; ++k) places.push_back(low + (high - low) * k / (count - 1));
     return places;
 }
 
-/// Places of the search along the axis: the distance that the images are made for (the eye's, if that is none) in the middle, and
-/// twice the way to the zone's ends on either side.
+/// Returns the inverse distances, 1/mm, of the search along the axis, ascending: in the middle the distance that the images are
+/// made for (the eye's, if that is infinite or inside the display), and twice the way to the paraxial zone's ends on either side.
 std::vector<double> inverse_distances(const Subject& s, double eye, const ParaxialZone& theory) {
     const double nearest = 1 / (1.001 * nearest_eye_mm(s.geometry()) - s.geometry().rear_principal_mm);
     const double made_for = 1 / theory.made_for_mm, middle = made_for > 1e-7 && made_for < nearest ? made_for : 1 / eye;
@@ -78,7 +81,7 @@ std::vector<double> inverse_distances(const Subject& s, double eye, const Paraxi
 
 ParaxialZone paraxial_zone(const Subject& s, std::size_t axis) {
     const Lattice<double>& lattice = s.geometry().lattice;
-    // Strips are crossed obliquely by an eye that moves along x.
+    // An eye that moves along x crosses the strips obliquely.
     const double per = lattice.strips ? 1 / lattice.cos_turn : 1;
     const double lenses = lenses_across(s.geometry(), axis);
     return {per * s.theory().along[axis].elemental_pitch_mm / (2 * s.geometry().gap_mm),
