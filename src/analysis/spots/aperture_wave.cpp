@@ -14,8 +14,8 @@ namespace {
 
 using Corners = ApertureShape::Corners;
 
-/// The mean over a polygon that is its own mirror image in the origin, so that it is real: by Green's theorem a sum over the
-/// edges.
+/// Returns the mean of exp(-2 pi i nu.q) over a polygon that is its own mirror image in the origin. By Green's theorem it is the
+/// sum over edges e with the middle m of (nu x e) sinc(nu.e) sin(2 pi nu.m), over 2 pi |nu|^2 times the area.
 double polygon_mean(const Corners& corners, double nu_x, double nu_y) {
     double area = 0, sum = 0;
     const double nu2 = nu_x * nu_x + nu_y * nu_y;
@@ -47,7 +47,7 @@ double border_of(const Corners& corners) {
     return length;
 }
 
-/// The part of a convex polygon with place[axis] <= limit.
+/// Returns the part of a convex polygon with position[axis] <= limit.
 Corners cut_off(const Corners& corners, std::size_t axis, double limit) {
     Corners kept;
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -64,21 +64,24 @@ Corners rectangle(double half_x, double half_y) {
     return {{half_x, -half_y}, {half_x, half_y}, {-half_x, half_y}, {-half_x, -half_y}};
 }
 
+/// Returns a hexagon of the inradius `half` with corners up and down.
 Corners hexagon(double half) {
     const double corner = half * 2 / std::numbers::sqrt3;
     return {{half, -corner / 2}, {half, corner / 2}, {0, corner}, {-half, corner / 2}, {-half, -corner / 2}, {0, -corner}};
 }
 
-/// Adds an arc as chords between equal angles, the sector of each of which has the arc's area.
+/// Adds an arc as chords between equal angles. They lie a little outside of the circle, such that each triangle has its sector's
+/// area: R^2 sin(step) = r^2 step.
 void add_arc(Corners& to, double radius, double from, double until, int chords) {
     const double step = (until - from) / chords, outer = radius * std::sqrt(step / std::sin(step));
     for (int k = 0; k <= chords; ++k) to.push_back({outer * std::cos(from + step * k), outer * std::sin(from + step * k)});
 }
 
-/// The part of a convex polygon about the origin within a circle that cuts all of its corners off, and some of its sides.
+/// Returns the part of a convex polygon about the origin within a circle that cuts off all of its corners and leaves parts of
+/// some sides.
 Corners within_circle(const Corners& corners, double radius) {
     constexpr int chords_a_turn = 192;
-    std::vector<std::array<double, 2>> sides;  // the angles from which and until which a side is the border
+    std::vector<std::array<double, 2>> sides;  // the angles from which to which each of the remaining sides is the border
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const auto &a = corners[k], &b = corners[(k + 1) % corners.size()];
         const double ex = b[0] - a[0], ey = b[1] - a[1], away = (a[0] * ey - a[1] * ex) / std::hypot(ex, ey);
@@ -88,6 +91,7 @@ Corners within_circle(const Corners& corners, double radius) {
     }
     Corners cut;
     for (std::size_t k = 0; k < sides.size(); ++k) {
+        // The arc from the end of a side to the beginning of the next
         const double from = sides[k][1];
         double until = sides[(k + 1) % sides.size()][0];
         while (until < from) until += 2 * pi;
@@ -103,6 +107,7 @@ ApertureShape aperture_shape(const Display& d, const Geometry& g) {
     const Pupil& pupil = g.pupil;
     if (g.lattice.strips) return {ApertureForm::slit, g.clear_aperture_mm};
     if (d.array.aperture == Aperture::circle) return {ApertureForm::disk, g.clear_aperture_mm};
+    // A cell that the pupil contains, or that contains the pupil, is not cut.
     const std::array<double, 2> cell{pupil.cells * d.array.pitch_mm[0], pupil.cells * d.array.pitch_mm[1]};
     const ApertureForm form = g.lattice.hexagonal ? ApertureForm::hexagon : ApertureForm::rectangle;
     if (pupil.radius_mm <= 0.5 * std::min(cell[0], cell[1])) return {ApertureForm::disk, g.clear_aperture_mm};
@@ -125,6 +130,7 @@ bool ApertureShape::holds(double x, double y) const {
         case ApertureForm::cut:
             break;
     }
+    // The position must lie to the left of each edge.
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const auto &a = outline[k], &b = outline[(k + 1) % outline.size()];
         if ((b[0] - a[0]) * (y - a[1]) < (b[1] - a[1]) * (x - a[0])) return false;
@@ -167,7 +173,7 @@ double ApertureShape::extent_mm(std::size_t axis) const {
 double ApertureShape::below(std::size_t axis, double place) const {
     const double u = std::clamp(2 * place / width_mm[axis], -1., 1.);
     if (form == ApertureForm::slit || form == ApertureForm::rectangle) return 0.5 * (1 + u);
-    if (form == ApertureForm::disk) return 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / pi;  // chords
+    if (form == ApertureForm::disk) return 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / pi;  // segment of a circle
     const Corners all = corners(0);
     return area_of(cut_off(all, axis, place)) / area_of(all);
 }

@@ -1,3 +1,5 @@
+// Spots and distortion of one lens. docs/measures.md, "Spots of one lens".
+
 #include "analysis/spots/lens_spots.h"
 
 #include "base/constants.h"
@@ -9,13 +11,12 @@
 #include <algorithm>
 #include <cmath>
 
-// docs/measures.md, "Spots of one lens".
 namespace lfdsim {
 namespace {
 
-constexpr int bundle_rays = 256, pixel_rays = 64, fan_rays = 1001, most_places = 96;
+constexpr int bundle_rays = 256, pixel_rays = 64, fan_rays = 1001, most_places = 96;  // bundle_rays and pixel_rays: across a bundle
 
-/// A size at depth z within double precision: rays that meet in one point leave some 1e-14 mm.
+/// Returns a size at depth z, or 0 if it is within the rounding of double precision.
 double told(double mm, double z) { return mm < 1e-9 + 1e-14 * std::abs(z) ? 0 : mm; }
 
 }  // namespace
@@ -50,6 +51,7 @@ Spot spot_at(const Subject& s, const LensField& f, double z) {
 }
 
 std::vector<double> spot_depths_mm(const Theory& t) {
+    // depth_of_field_mm is the published one, symmetric about L.
     const double L = t.central_depth_mm, near = depth_mm(t.depth_near_per_mm);
     if (std::isinf(L)) return {near, 1.5 * near, 2 * near, 3 * near, 4 * near};
     const double half = std::min(0.5 * t.depth_of_field_mm, 0.9 * std::abs(L));
@@ -84,12 +86,13 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
     }
     const auto [columns, rows] = places;
     const double L = t.central_depth_mm, gap = g.gap_mm;
+    // Returns the distance for the panel point, in pixel images; NaN if it is outside the cell or dark.
     const auto miss = [&](Point panel) {
         if (!optics::in_cell(lattice, panel[0], panel[1], 1e-9 * lattice.pitch[0])) return nan;
         const Bundle light = bundle(lens, panel, pixel_rays);
         if (light.rays.empty()) return nan;
-        // Both lines are stated as slopes from the axis's point at H', so that L may be infinite: at L a pixel's image is a |L| /
-        // g wide.
+        // At L a ray is at x + m L, and the nodal line, of slope -P/g through H', at -P L/g. Both are divided by L, so that L may
+        // be infinite; a pixel's image is then a/g wide.
         double x = 0, y = 0;
         for (const LensRay& r : light.rays) {
             x += r.mx + r.x / L;
@@ -100,6 +103,7 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
         return images < 1e-9 ? 0 : images;  // within double precision
     };
     Distortion result{columns, rows, std::vector<double>(std::size_t(columns) * std::size_t(rows), nan)};
+    // A quarter of the pixels is traced: the others are its mirror images.
     on_threads(threads, [&] {
         tbb::parallel_for(0, (places[1] + 1) / 2, [&](int j) {
             for (int i = 0; i < (places[0] + 1) / 2 && !job.cancelled(); ++i) {

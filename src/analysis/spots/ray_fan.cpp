@@ -19,6 +19,7 @@ Bundle bundle(const LensTrace& lens, Point panel, int across) {
         for (int i = 0; i < across; ++i)
             if (const auto ray = through(i, box->y0 + (j + 0.5) * dy)) result.rays.push_back(*ray);
     result.light = double(result.rays.size()) * dx * dy;
+    // The light is that of all directions; rays of strips are those of the plane across them.
     if (!lens.of_strips()) return result;
     result.rays.clear();
     for (int i = 0; i < across; ++i)
@@ -28,7 +29,8 @@ Bundle bundle(const LensTrace& lens, Point panel, int across) {
 
 namespace {
 
-/// The rays of direction(s), s from low to high, that get through, with those at the very ends of each open range.
+/// Returns the parameters s, from low to high, of rays in the directions direction(s) that get through, with the ends of each
+/// open range, found by bisection.
 template <class Direction>
 std::vector<double> open_places(const LensTrace& lens, Point panel, double low, double high, int rays, Direction direction) {
     const auto open = [&](double s) { return lens.ray(panel, direction(s)).has_value(); };
@@ -61,7 +63,8 @@ Fans fans(const LensTrace& lens, Point panel, int rays) {
     if (!box) return result;
     const double height = std::hypot(panel[0], panel[1]);
     const Point u = height > 0 ? Point{panel[0] / height, panel[1] / height} : Point{1, 0}, v{-u[1], u[0]};
-    const auto range = [&](const Point& axis) {  // of the box's corners
+    // Returns the extent of the box of directions along an axis.
+    const auto range = [&](const Point& axis) {
         const double x0 = axis[0] * box->x0, x1 = axis[0] * box->x1, y0 = axis[1] * box->y0, y1 = axis[1] * box->y1;
         return std::array{std::max(std::min(x0, x1) + std::min(y0, y1), -1.), std::min(std::max(x0, x1) + std::max(y0, y1), 1.)};
     };
@@ -73,6 +76,7 @@ Fans fans(const LensTrace& lens, Point panel, int rays) {
         const auto ray = lens.ray(panel, along(s));
         result.meridional.push_back({ray->x * u[0] + ray->y * u[1], ray->mx * u[0] + ray->my * u[1]});
     }
+    // The sagittal plane contains the middle ray: cosines s across and c sqrt(1 - s^2) along u have a constant slope along u.
     const double middle = 0.5 * (meridional.front() + meridional.back());
     const auto across = [&](double s) {
         const double rest = middle * std::sqrt(std::max(1 - s * s, 0.));
@@ -88,6 +92,7 @@ Fans fans(const LensTrace& lens, Point panel, int rays) {
 
 FanWidth width_at(const std::vector<FanRay>& lines, double z) {
     if (lines.empty()) return {0, 0};
+    // The greatest of straight lines is convex in z and the least concave, so that their difference is convex.
     FanRay low = lines.front(), high = low;
     double lowest = infinity, highest = -infinity;
     for (const FanRay& l : lines) {

@@ -1,3 +1,5 @@
+// The measure of spots: its tables, diagrams and curves. docs/measures.md, "Spots of one lens".
+
 #include "analysis/spots/spot.h"
 
 #include "analysis/core/figure_json.h"
@@ -12,13 +14,13 @@
 #include <cmath>
 #include <utility>
 
-// docs/measures.md, "Spots of one lens".
 namespace lfdsim {
 namespace {
 
-constexpr int shown_rays = 22, focus_steps = 121;
+constexpr int shown_rays = 22, focus_steps = 121;  // across a diagram's bundle; depths of the curves
 
-/// The table of all spots, as CSV and JSON.
+/// Adds the sizes of all spots, as a table and for scripts. `depths` are from H', results from the vertex plane: `from_vertex` is
+/// added.
 void tell_spots(const Subject& s, const std::vector<LensField>& fields, const std::vector<double>& depths, double from_vertex,
                 Result& result) {
     DataTable table{"spot", {}};
@@ -60,8 +62,8 @@ void tell_spots(const Subject& s, const std::vector<LensField>& fields, const st
     result.tables.push_back(std::move(table));
 }
 
-/// The spots of a field at the first, middle and last depth, side by side at one scale, each about its centroid, and the outline of
-/// a panel pixel's image: the spot size that theory allows.
+/// Returns a diagram of a field's spots at the first, middle and last depth, side by side at one scale, each about its centroid,
+/// with the outline of a panel pixel's image, the spot size that theory allows.
 Plot diagram(const Subject& s, const LensTrace& lens, const LensField& field, const std::vector<double>& depths,
              double from_vertex) {
     const Bundle light = bundle(lens, field.panel, shown_rays);
@@ -76,6 +78,7 @@ Plot diagram(const Subject& s, const LensTrace& lens, const LensField& field, co
     const double pixel_slope = s.display().panel.pixel_pitch_mm / s.geometry().gap_mm;
     double x0 = 0;
     for (const double z : {depths.front(), depths[depths.size() / 2], depths.back()}) {
+        // Each spot, or pixel image if that is wider, has its width and a tenth more.
         const Centroid middle = centroid_at(light, z);
         const double half = 0.5 * pixel_slope * std::abs(z);
         double left = half, right = half;
@@ -100,7 +103,7 @@ Plot diagram(const Subject& s, const LensTrace& lens, const LensField& field, co
     return plot;
 }
 
-/// Radius and width against depth.
+/// Adds curves of RMS radius and full width over depth.
 void tell_focus(const Subject& s, const std::vector<LensField>& fields, const std::vector<double>& depths, double from_vertex,
                 Result& result) {
     std::vector<double> places;
@@ -111,6 +114,7 @@ void tell_focus(const Subject& s, const std::vector<LensField>& fields, const st
     Curves rms("spot_through_focus", "Spot size through focus", "depth in front of the lenses, mm", "RMS radius, mm",
                {"depth_mm", at});
     Plot width{"spot_width", "Width of the spot on the axis", "depth in front of the lenses, mm", "full width, mm", {}};
+    // Paraxially a spot is D_L |1 - z/L| wide; for infinite L it has the width D_L at all depths.
     std::vector<double> theory;
     const double L = s.theory().central_depth_mm, D = light_width_mm(s.display(), s.geometry())[0];
     for (const double z : places) theory.push_back(D * std::abs(std::isinf(L) ? 1 : z / L - 1));
@@ -138,6 +142,7 @@ void tell_focus(const Subject& s, const std::vector<LensField>& fields, const st
     result.plots.push_back(std::move(width));
 }
 
+/// Adds largest and RMS distortion, and its map.
 void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
     double most = 0, sum = 0;
     int open = 0;

@@ -1,3 +1,5 @@
+// Axial and lateral colour of one lens. docs/measures.md, "Colour of one lens".
+
 #include "analysis/spots/spot_colour.h"
 
 #include "analysis/core/estimate.h"
@@ -9,28 +11,27 @@
 #include <array>
 #include <cmath>
 
-// docs/measures.md, "Colour of one lens".
 namespace lfdsim {
 namespace {
 
-/// Across: each grid meets the rims elsewhere, which tells the centroids' error.
+/// Rays across each grid. The grids meet the rims at different points, so that their centroids' scatter shows the error.
 constexpr std::array colour_rays{193, 181, 173, 163};
 constexpr int drawn_rays = 14;
 constexpr const char* channel_names[] = {"r", "g", "b"};
 constexpr const char* colour_names[] = {"red", "green", "blue"};
 
-/// A lens at a channel's wavelength.
+/// A lens at a channel's wavelength, with depths from green's H'.
 struct Coloured {
     Geometry geometry;
     LensTrace lens;
-    double lower;  // its rear principal plane below green's, mm
+    double lower;  // height of green's H' over the channel's, mm
 
     Coloured(const Subject& s, std::size_t channel)
         : geometry(resolve(s.display(), s.display().panel.wavelengths_nm[channel])),
           lens(s.display(), geometry),
           lower(s.geometry().rear_principal_mm - geometry.rear_principal_mm) {}
 
-    /// Rays whose depths count from green's rear principal plane.
+    /// Returns the rays of a panel point, with depths from green's H'.
     Bundle light(Point panel, int across) const {
         Bundle found = bundle(lens, panel, across);
         for (LensRay& ray : found.rays) {
@@ -41,10 +42,10 @@ struct Coloured {
     }
 };
 
-/// L of a colour, from green's rear principal plane.
+/// Returns L of a colour, mm from green's H'.
 double central_depth_mm(const Subject& s, const Coloured& c) { return theory(s.display(), c.geometry).central_depth_mm - c.lower; }
 
-/// The spots of a field in all colours at green's central depth plane.
+/// Returns a diagram of a field's spots in all colours at a depth, mm from green's H'.
 Plot colour_diagram(const LensField& field, const std::array<Bundle, 3>& light, double depth, double from_vertex) {
     Plot plot{fmt::format("spot_colour_{}", field.name),
               fmt::format("Colours of the spot, {}, {:.4g} mm in front of the lenses", field.title, depth + from_vertex),
@@ -81,7 +82,7 @@ void tell_colours(const Subject& s, const std::vector<LensField>& fields, Result
                 .unit = "mm",
                 .remark = "paraxial, with each colour's own focal length and gap"});
 
-    // Where L is infinite: at a depth that the other figures are told at.
+    // If L is infinite, spots are compared at the middle one of the other figures' depths.
     const double L = s.theory().central_depth_mm, depth = std::isinf(L) ? spot_depths_mm(s.theory())[2] : L;
     DataTable table = DataTable::of_rows("spot_colour", {"panel_x_mm", "panel_y_mm", "channel", "x_mm", "y_mm", "rms_radius_mm"});
     Json& lateral = json["lateral"] = Json::array();

@@ -1,3 +1,5 @@
+// Depths of field of one lens, by tracing. docs/measures.md, "Depth of field by spot size".
+
 #include "analysis/spots/spot_depth.h"
 
 #include "analysis/core/estimate.h"
@@ -12,15 +14,14 @@
 #include <cmath>
 #include <optional>
 
-// docs/measures.md, "Depth of field by spot size".
 namespace lfdsim {
 namespace {
 
 constexpr double most_per_mm = 1e6;  // a nanometre in front of the lens
 constexpr int depth_fan_rays = 1001;
-constexpr double farthest_mm = 1e7;
+constexpr double farthest_mm = 1e7;  // end of the search by the lens
 
-/// The point at which a predicate changes, once, from false at `out` to true at `in`.
+/// Returns the point at which a predicate changes, once, from false at `out` to true at `in`, on the true side.
 template <class Predicate>
 double change(double out, double in, Predicate holds) {
     for (int halved = 0; halved < 120; ++halved) {
@@ -30,7 +31,7 @@ double change(double out, double in, Predicate holds) {
     return in;
 }
 
-/// Every third ray from `first` on, with the rims.
+/// Returns every third ray from `first` on, and both rims.
 std::vector<FanRay> thinned(const std::vector<FanRay>& fan, std::size_t first) {
     std::vector<FanRay> third;
     for (std::size_t k = first; k < fan.size(); k += 3) third.push_back(fan[k]);
@@ -38,10 +39,10 @@ std::vector<FanRay> thinned(const std::vector<FanRay>& fan, std::size_t first) {
     return third;
 }
 
-/// A fan, and the three thirds of it.
+/// A fan, and its three thirds, from which errors follow.
 struct Fan {
     explicit Fan(const std::vector<FanRay>& fan) : all(fan), thirds{thinned(fan, 0), thinned(fan, 1), thinned(fan, 2)} {}
-    /// Each ray turned by the diffuser.
+    /// Returns the fan after the diffuser.
     Fan diffused_at(double z, double angle) const {
         Fan turned(*this);
         for (std::vector<FanRay>* lines : {&turned.all, &turned.thirds[0], &turned.thirds[1], &turned.thirds[2]})
@@ -52,9 +53,9 @@ struct Fan {
     std::array<std::vector<FanRay>, 3> thirds;
 };
 
-/// The errors of the ends by the finite number of rays. An end is set by the outermost ray, which lies d <= h/2 beside the true
-/// one, h the step between rays, and misses it by k d^2, k the curvature. The third whose nearest ray is the next but one misses by
-/// k (h + d)^2: it differs from all rays together by k (h^2 + 2 h d), at least eight times as much.
+/// Returns the errors of both ends by the finite number of rays. An end is determined by the outermost ray, which lies d <= h/2
+/// beside the true one, h the step between rays, and misses it by k d^2, k the curvature. The third whose nearest ray is the next
+/// but one misses it by k (h + d)^2: it differs from all rays together by k (h^2 + 2 h d), at least eight times as much.
 std::array<double, 2> errors(const SharpDepths& all, const Fan& fan, double pixel_slope, double airy_slope) {
     constexpr double margin = 0.25;  // twice an eighth
     std::array<double, 2> most{1e-9 * std::abs(all.near_per_mm), 1e-9 * std::abs(all.far_per_mm)};
@@ -66,7 +67,7 @@ std::array<double, 2> errors(const SharpDepths& all, const Fan& fan, double pixe
     return most;
 }
 
-/// Writes spans of depths: figures under `key`, and a line of the table for each side of the lenses.
+/// Writes depths of field: figures under a key, and a line of the report for each side of the lenses.
 class Teller {
   public:
     Teller(const Subject& s, Result& result)
@@ -75,12 +76,13 @@ class Teller {
           pixel_slope_(s.display().panel.pixel_pitch_mm / s.geometry().gap_mm),
           result_(result) {}
 
-    /// `low` and `high` are errors of what is measured; none: it is theory's alone.
+    /// A traced range with its errors.
     struct MeasuredRange {
-        SharpRange range, least, most;  // the same with its errors for and against it
-        std::string missing;            // why there is none at all
+        SharpRange range, least, most;  // least, most: with the errors of both ends against it, and for it
+        std::string missing;            // why there is no range at all
     };
 
+    /// Adds a range under `key`; without a traced one, theory alone.
     void tell(const std::string& key, const std::string& what, const std::optional<MeasuredRange>& found, const SharpRange& theory,
               const std::string& remark) {
         Json& json = result_.figures[key];
@@ -173,13 +175,14 @@ class Teller {
     double pixel_slope() const { return pixel_slope_; }
 
   private:
-    /// The error of an end, from those of the least and the greatest interval; an end at the lenses or at the viewer has none.
+    /// Returns the error of an end, from those of the least and the greatest range; an end at infinity has none.
     static double error(double at, double least, double most) {
         if (std::isinf(at) || std::isnan(at)) return std::isnan(at) ? nan : 0;
         double error = 0;
         for (const double other : {least, most}) error = std::max(error, std::isnan(other) ? std::abs(at) : std::abs(at - other));
         return error;
     }
+    /// Returns a depth, given as 1/z from H', as text in mm from the vertex plane.
     std::string text_mm(double per_mm) const {
         const double z = depth_mm(per_mm) + geometry_.rear_principal_mm - geometry_.vertex_plane_mm;
         return std::isinf(z) ? "infinitely many" : fmt::format("{:.4g}", z);
@@ -194,8 +197,8 @@ class Teller {
 
 SharpDepths where_sharp(const std::vector<FanRay>& fan, double pixel_slope, double airy_slope) {
     if (fan.empty()) return {nan, nan, nan, nan};
-    // A ray at + slope z, over its depth: at/z + slope, a line over 1/z too. The width of a fan is therefore convex there, and
-    // within the limit in one interval about its minimum.
+    // A ray's position over its depth, at/z + slope, is a line over u = 1/z, too. The width of a fan is therefore convex in u,
+    // and within the limit in one interval about its minimum.
     std::vector<FanRay> over_depth;
     for (const FanRay& l : fan) over_depth.push_back({l.slope, l.at});
     const auto width = [&](double per_mm) { return std::hypot(width_at(over_depth, per_mm).mm, airy_slope); };
@@ -208,7 +211,8 @@ SharpDepths where_sharp(const std::vector<FanRay>& fan, double pixel_slope, doub
 }
 
 std::array<double, 2> where_narrow(const std::vector<FanRay>& fan, double width_mm) {
-    // The width is a convex function of z, so that it is within the limit in one interval, which contains 0.
+    // The width is convex in z, so that it is within the limit in one interval, which contains 0 as the limit is not less than
+    // the width there.
     const double limit = std::max(width_mm, width_at(fan, 0).mm) * (1 + 1e-12);
     const auto narrow = [&](double z) { return width_at(fan, z).mm <= limit; };
     std::array<double, 2> ends{};
@@ -229,7 +233,8 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const Theory& t = s.theory();
     const Geometry& g = s.geometry();
     const double D = widest_aperture_mm(g), wavelength_mm = s.options().wavelength_nm * 1e-6;
-    const bool along_x = D == g.clear_aperture_mm[0];  // of the widest fan
+    // The fan is that along the wider clear aperture, so that depths stated as sharp are sharp along both axes.
+    const bool along_x = D == g.clear_aperture_mm[0];
     const Fans both = fans(LensTrace(s.display(), g), {0, 0}, depth_fan_rays);
     const Fan fan(along_x ? both.meridional : both.sagittal);
     const std::size_t axis = along_x ? 0 : 1;
