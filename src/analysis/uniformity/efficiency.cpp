@@ -15,25 +15,26 @@ namespace {
 
 constexpr int budget_rays_a_part = 1 << 12;
 
-/// The light that one part's rays find.
+/// The basic radiance found by one part's rays, summed.
 struct Found {
     double reaches = 0, leaves = 0, leaves_in_fov = 0;
 };
 
-/// Real lenses conserve radiance and etendue, and so a bundle's flux. The ideal lens conserves a bundle's extent in slopes, which
-/// is that in directions over the cosine's fourth power: this is the ratio of its flux to the radiance that it shows. The line
-/// comes down to `at` in the lens's plane along `to`; below it has the slope dx/dz more by q/f, q its place in the lens.
+/// Returns the ratio of a line's flux to the radiance that it shows, for ideal lenses: (cos below/cos above)^4. Real lenses
+/// conserve radiance and etendue, and so a bundle's flux. The ideal lens conserves a bundle's extent in slopes, which is that in
+/// directions over cos^4. The line comes down to `at` in the lens's plane along `to`; below it the slope dx/dz is larger by q/f,
+/// q its position in the lens.
 double flux_per_radiance(const Geometry& g, const Vec3d& at, const Vec3d& to, const Sight& sight) {
     const Lattice<double>& l = g.lattice;
     const double power = std::isfinite(g.focal_length_mm) ? 1 / g.focal_length_mm : 0;
     const auto above = optics::to_array(l, to[0] / to[2], to[1] / to[2]);
     const auto q = optics::to_array(l, at[0] - sight.lens[0], at[1] - sight.lens[1]);
     const double x = above.x + power * q.x, y = above.y + (l.strips ? 0 : power * q.y);
-    const double ratio = 1 / ((1 + x * x + y * y) * to[2] * to[2]);  // of the squared cosines, before the lens over after it
+    const double ratio = 1 / ((1 + x * x + y * y) * to[2] * to[2]);  // cos^2 below over cos^2 above
     return ratio * ratio;
 }
 
-/// Index of the medium that the panel shines into, and of the one just below the lenses' lowest point.
+/// Indices of the medium into which the panel emits, and of the one just below the lenses' lowest point.
 struct Media {
     double at_panel, at_lens;
 };
@@ -44,8 +45,8 @@ Media media_of(const Geometry& g) {
     return {layers.front().index, g.glued ? layers.back().index : 1};
 }
 
-/// Basic radiance, against the panel's along its normal, of the light that comes up to a place at the lenses' lowest point against
-/// the unit vector `to`, in the medium there.
+/// Returns the basic radiance, relative to the panel's along its normal, of the light that arrives at a position at the lenses'
+/// lowest point from the direction opposite to the unit vector `to`, in the medium there.
 double coming_up(const Display& d, const Geometry& g, const optics::TracedDisplay<double>& scene, const Vec3d& at,
                  const Vec3d& to) {
     optics::Vec3<double> down{to[0], to[1], to[2]};
@@ -67,8 +68,8 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     const auto scene = make_traced_display<double>(bare, bare_geometry);
     const Media media = media_of(geometry);
     const double width = geometry.array_width_mm, height = geometry.array_height_mm;
-    // Caps rise above their rims: light that leaves them obliquely at the border crosses the vertex plane beside the array. Where
-    // no other light does, in black surrounds, it is counted.
+    // Caps rise above their rims: light that leaves them obliquely at the border crosses the vertex plane beside the array. In
+    // black surrounds, where no other light does, it is counted within a margin.
     const bool black = display.array.surround == Surround::opaque;
     const double margin = black ? 8 * (geometry.vertex_plane_mm - geometry.base_z_mm) : 0;
     const double m = display.panel.emission_exponent,
@@ -81,13 +82,15 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     parts.run(light_budget_parts, [&](int part) {
         Found& sum = sums[std::size_t(part)];
         for (const Choice& choice : even_choices(rays, set_number(display.render.seed, part))) {
-            Vec3d to;  // as dense as its cosine: uniform over the disk below the hemisphere
+            // The directions are cosine-weighted: uniform over the disk below the hemisphere.
+            Vec3d to;
             optics::disk(choice[2], choice[3], to[0], to[1]);
             to[2] = -std::sqrt(std::max(1 - to[0] * to[0] - to[1] * to[1], 0.));
             if (!(to[2] < -1e-9)) continue;
             const Vec3d inside = lenses.point(0.5 * width * choice[0], 0.5 * height * choice[1]);
             sum.reaches += media.at_lens * media.at_lens * coming_up(display, geometry, scene, inside, to);
             const Vec3d at = lenses.point((0.5 * width + margin) * choice[0], (0.5 * height + margin) * choice[1]);
+            // Light that leaves the lenses there
             const Sight sight = lenses.look_along(at, to, 0, 0);
             const double light = sight.light * (ideal ? flux_per_radiance(geometry, at, to, sight) : 1);
             sum.leaves += light;
@@ -95,6 +98,7 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
             if (std::abs(along) <= -to[2] * fov_slope[0] && std::abs(across) <= -to[2] * fov_slope[1]) sum.leaves_in_fov += light;
         }
     });
+    // Each set has 1/independent_sets of the parts: a mean over its rays, times pi and the area.
     const double flux = pi * independent_sets / (double(rays) * light_budget_parts), per_ray = flux * width * height,
                  per_wide_ray = flux * (width + 2 * margin) * (height + 2 * margin);
     std::array<LightBudget, independent_sets> budgets{};

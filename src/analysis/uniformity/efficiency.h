@@ -1,4 +1,5 @@
-// Where the panel's light goes. Floor 3.
+// The light budget of a white panel: how much reaches the array, and how much leaves it. Floor 3. docs/measures.md, "Uniformity
+// and efficiency".
 #pragma once
 #include "analysis/core/estimate.h"
 #include "analysis/core/parallel.h"
@@ -9,23 +10,24 @@
 
 namespace lfdsim {
 
-/// Light of a white panel, W for a basic radiance (radiance over n^2) of 1 W/(mm^2 sr) along its normal.
+/// Light of a white panel, W, for a basic radiance (radiance over n^2) of 1 W/(mm^2 sr) along the panel's normal.
 struct LightBudget {
-    double emitted;        // by the panel, into its hemisphere: n^2, of what lies on it, times its area times 2 pi / (m + 2)
-    double reaches_array;  // of it, the array's rectangle at the height of its lowest point, in the medium below that
+    double emitted;        // by the panel into its hemisphere: n^2 2 pi/(m + 2) times its area, n of the medium on it
+    double reaches_array;  // through the array's rectangle at the lenses' lowest point, in the medium below that
     double leaves;         // through the array's rectangle in the vertex plane, without the diffuser, in any direction
-    double leaves_in_fov;  // of it, with slopes within p/2g along both axes of the array
+    double leaves_in_fov;  // the part of `leaves` with slopes within p/2g along both axes of the array
 };
 
+/// The number of parts that light_budgets() runs.
 constexpr int light_budget_parts = 128;
 
-/// The budget by each set of rays. Rays are traced backwards from all places in front of the array and in all directions, so that
-/// each stands for an equal share of a uniform radiance: the panel's radiance that they find, times pi and the area, is the light
-/// that leaves. Likewise what reaches the array is sought backwards through the layers; where lenses are glued on, in the
-/// top layer (or in their own glass on the panel itself), times n^2: radiance over n^2 is what layers and lenses pass on.
+/// Returns the budget by each set of rays. Rays are traced backwards from all positions in front of the array in cosine-weighted
+/// directions: the mean of the basic radiance that they find, times n^2 pi and the area, is the light that crosses the plane.
+/// That is done behind the lenses, with n = 1, and at their lowest point, where n is that of the top layer if lenses are glued
+/// onto it (of their own glass on the panel itself): what layers and lenses conserve is radiance over n^2.
 std::array<LightBudget, independent_sets> light_budgets(const Display&, const Geometry&, Parts&);
 
-/// The mean of all sets but one.
+/// Returns the mean of all sets, or of all but one.
 LightBudget mean_budget(const std::array<LightBudget, independent_sets>&, int without = -1);
 
 }  // namespace lfdsim

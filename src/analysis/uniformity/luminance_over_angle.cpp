@@ -8,7 +8,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr int angle_lines_a_set = 256;  // of an eye at an angle; and three times as many mirrored
+constexpr int angle_lines_a_set = 256;  // of an eye at an angle, and three times as many mirrored ones
 constexpr double step_deg = 2.5, last_deg = 80;
 
 }  // namespace
@@ -37,6 +37,7 @@ Sums LuminanceOverAngle::at(int axis, double angle_deg) const {
             for (const double x : {-1., 1.})
                 for (const double y : {-1., 1.}) {
                     const Sight sight = rays_.look(eye, {x * c[0], y * c[1], x * c[2], y * c[3], x * c[4], y * c[5]});
+                    // Sums of floats in double are exact, so that mirrored displays have equal sums.
                     sum += double(float(sight.light));
                     lines += sight.on_screen;
                 }
@@ -45,7 +46,8 @@ Sums LuminanceOverAngle::at(int axis, double angle_deg) const {
     return sums;
 }
 
-/// The angle, between one brighter than half the middle and one darker, at which luminance is half of that in the middle.
+/// Returns the angle, between one with more than half of the luminance on axis and one with less, at which it is half: by seven
+/// bisections. The error is the noise over the slope, and half of the last step.
 Estimate LuminanceOverAngle::half_between(int axis, double bright, double dark) const {
     const Sums middle = at(axis, 0);
     const auto excess = [&](const Sums& here, int without) { return total(here, without) - 0.5 * total(middle, without); };

@@ -1,4 +1,4 @@
-// The luminance of a white screen against the viewing angle. Floor 3.
+// The luminance of a white screen over the viewing angle. Floor 3.
 #pragma once
 #include "analysis/core/estimate.h"
 #include "analysis/core/eye_rays.h"
@@ -12,15 +12,17 @@ namespace lfdsim {
 /// Returns viewing angles from -80 to 80 degrees.
 std::vector<double> luminance_angles_deg();
 
-/// Eyes at the viewing distance see this mean luminance of a white screen.
+/// The mean luminance of a white screen that eyes at the viewing distance see.
 class LuminanceOverAngle {
   public:
+    /// `distance_mm`: of the eyes from the panel's centre. Keeps a reference to the rays.
     LuminanceOverAngle(const Subject&, const EyeRays&, double distance_mm);
-    /// The luminance is NaN where eyes cannot be, or see no panel through the array. Each line's mirror images in both planes are
-    /// traced too.
+    /// Returns the luminance relative to the panel's along its normal, for each set, of an eye at an angle along x (axis 0) or y
+    /// (1); NaN if the eye would be inside the display or sees no panel through the array. Each line's mirror images in both
+    /// planes are traced, too.
     Sums at(int axis, double angle_deg) const;
-    /// Finds where, from the middle to one side (-1 or 1), the luminance first falls below half of that on axis; NaN: nowhere.
-    /// `light` is that at `angles`.
+    /// Returns the angle, from the middle to one side (-1 or 1), at which the luminance first falls below half of that on axis;
+    /// NaN if it does not. `light` is the luminance at `angles`.
     Estimate half_deg(int axis, const std::vector<double>& angles, const std::vector<double>& light, int side) const;
 
   private:

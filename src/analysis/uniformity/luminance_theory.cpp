@@ -15,7 +15,8 @@
 namespace lfdsim {
 namespace {
 
-/// The transmittance of all surfaces at normal incidence: the lens's, and those of the layers that no lens is glued on.
+/// Returns the transmittance of all surfaces at normal incidence, product of 4 n1 n2/(n1 + n2)^2: the lens's, and those of the
+/// layers that no lens is glued onto.
 double transmission(const Display& d, const Geometry& g) {
     if (d.render.fresnel == Fresnel::none) return 1;
     double t = 1;
@@ -29,7 +30,7 @@ double transmission(const Display& d, const Geometry& g) {
     return t;
 }
 
-/// The luminance of a line of sight that comes down beside the lens, over the panel's.
+/// Returns the luminance, relative to the panel's, of a line of sight that passes beside the lens's aperture.
 double beside(const Display& d, const Geometry& g) {
     if (d.lens.is_thin() || d.array.surround == Surround::opaque || d.lens.stop_radius_mm) return 0;
     return d.array.surround == Surround::plate ? transmission(d, g) : 1;
@@ -42,11 +43,12 @@ class RealLens {
     RealLens(const Display& d, const Geometry& g)
         : scene_(make_traced_display<double>(without_errors(d), g)), rear_principal_mm_(g.rear_principal_mm) {}
 
-    /// The end of a line of sight.
+    /// The end of a line of sight on the panel.
     struct PanelEnd {
-        optics::Vec2<double> place;  // on the panel, from the array's middle in its axes
+        optics::Vec2<double> place;  // from the array's centre, in its frame
         double weight;               // 0: the line ends on its way
     };
+    /// Traces a line that comes down to the lenses as `line` does.
     PanelEnd look(const ParaxialLine& line) const {
         const Lattice<double>& l = scene_.lattice;
         const double length = std::sqrt(1 + line.slope.x * line.slope.x + line.slope.y * line.slope.y),
@@ -55,7 +57,8 @@ class RealLens {
         optics::Vec2<double> axis = line.axis;
         optics::Ray<double> entering{};
         optics::Hit<double> hit{};
-        // A line may meet the surface of the lens beside the one over which it passes the plane of H'.
+        // A line may meet the surface of a lens beside the one over which it passes the plane of H': the lens is searched for
+        // anew at each hit.
         constexpr int steps = 4;
         for (int step = 0; step < steps; ++step) {
             entering = {{line.at.x + down * line.slope.x - axis.x, line.at.y + down * line.slope.y - (l.strips ? 0 : axis.y), 0},
@@ -98,11 +101,11 @@ class RealLens {
     double rear_principal_mm_;
 };
 
-/// Means over lines of sight that aim at the screen in the vertex plane: evenly chosen lenses, places in their cells and angles of
-/// the diffuser.
+/// Mean luminance over lines of sight that aim at the screen in the vertex plane: evenly chosen lenses, positions in their cells
+/// and angles of the diffuser.
 struct Means {
-    double paraxial;  // lenses without aberration
-    double real;      // lenses as they are; of thin ones the same
+    double paraxial;  // of lenses without aberration
+    double real;      // of the real lenses; of thin ones the same
 };
 Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
     const int count = d.lens.is_thin() ? 1 << 19 : 1 << 18;
@@ -111,7 +114,8 @@ Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
     if (!d.lens.is_thin()) lens.emplace(d, g);
     const Lattice<double>& l = g.lattice;
     const double through = transmission(d, g), past = beside(d, g);
-    const double on_to_principal = (eye_mm - g.rear_principal_mm) / (eye_mm - g.vertex_plane_mm);  // from where lines aim
+    // The scale from the aim in the vertex plane to the plane of H', as the eye projects it
+    const double on_to_principal = (eye_mm - g.rear_principal_mm) / (eye_mm - g.vertex_plane_mm);
     const PanelBehind panel(g);
     Means seen{0, 0};
     double all = 0;
@@ -121,7 +125,8 @@ Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
     for (const Choice& c : even_choices(count)) {
         const auto axis = optics::axis_in_array(l, optics::Cell<double>{number(c[4], 0), number(c[5], 1)});
         optics::Vec2<double> in{l.half_pitch[0] * c[0], 0.5 * l.pitch[1] * c[1]};
-        if (l.hexagonal) {  // the corners of this box belong to a neighbour's cell: the same place in the hexagon
+        // A position in the box about a hexagon but outside of it is taken relative to the neighbour in whose cell it lies.
+        if (l.hexagonal) {
             const auto centre = optics::axis_of(l, optics::cell_at(l, in.x, in.y));
             in = {in.x - centre.x, in.y - centre.y};
         }
@@ -147,7 +152,7 @@ Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
 TheoryFigure luminance_over_panel(const Display& d, const Geometry& g, double eye_mm) {
     if (d.panel.emission_exponent != 0) return {nan, "theory holds for a panel that is equally bright from all directions"};
     const Means seen = seen_means(d, g, eye_mm);
-    // Light that is lost to one lens may find another way between lenses of glass.
+    // Between lenses of glass light that one lens loses may find another path to the panel.
     constexpr double alike = 0.003;
     if (d.array.surround != Surround::opaque && std::abs(seen.real - seen.paraxial) > alike * seen.paraxial)
         return {nan,

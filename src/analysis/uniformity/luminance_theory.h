@@ -1,4 +1,4 @@
-// A white screen's luminance by paraxial theory. Floor 3.
+// The luminance of a white screen by theory. Floor 3.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
@@ -7,16 +7,17 @@
 
 namespace lfdsim {
 
-/// NaN where there is no closed form, and `missing` says why.
+/// A figure by theory; NaN if there is none, and `missing` says why.
 struct TheoryFigure {
     double value;
     std::string missing;
 };
 
-/// Mean luminance over the panel's that an eye on axis sees of the screen: of lines of sight that aim at it, the share that the
-/// diffuser and a lens lead to the panel, times the transmission on that way, summed to a thousandth. Thin lenses are paraxial;
-/// glass ones stand by themselves, with their own surfaces. Lines between lenses of `clear` and `plate` see the panel as well;
-/// where lenses in these lose light to their walls there is no figure.
+/// Returns the mean luminance, relative to the panel's, that an eye on axis, `eye_mm` from the panel, sees of the screen: of
+/// lines of sight that aim at it, the share that the diffuser and a lens lead to the panel, times the transmission on that path,
+/// accurate to a thousandth. Thin lenses are paraxial, glass ones are isolated with their real surfaces. Lines between lenses of
+/// `clear` and `plate` see the panel as well; there is no figure where lenses in these surrounds lose light to their walls, nor
+/// for a panel that is not Lambertian.
 TheoryFigure luminance_over_panel(const Display&, const Geometry&, double eye_mm);
 
 }  // namespace lfdsim

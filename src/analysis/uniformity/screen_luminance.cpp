@@ -1,3 +1,5 @@
+// Luminance over the screen and within a lens pitch. docs/measures.md, "Uniformity and efficiency".
+
 #include "analysis/core/screen_parts.h"
 #include "analysis/uniformity/uniformity.h"
 
@@ -12,7 +14,8 @@ namespace lfdsim {
 namespace {
 
 constexpr int most_parts_along = 16, rays_a_part = 1 << 14;
-constexpr double inner_panel = 0.75;  // where a turned array's lenses are counted within a pitch: not at the screen's rim
+// Lines count for the luminance within a pitch in this part of the panel's width and height, not at the screen's rim.
+constexpr double inner_panel = 0.75;
 
 }  // namespace
 
@@ -90,6 +93,7 @@ Estimate ScreenLuminance::uniformity_percent(bool inside) const {
     }
     if (count == 0 || std::isinf(least.value)) return {nan, nan};
     if (!(greatest.value > 0)) return {0, 0};
+    // Errors of Lmin/Lmax to first order
     const double ratio = least.value / greatest.value, typical = std::sqrt(squares / count);
     const double error = std::max(least.error, typical) + ratio * std::max(greatest.error, typical);
     return {100 * ratio, 100 * error / greatest.value};
@@ -109,7 +113,7 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Geom
     struct CellSum {
         double light = 0, lines = 0;
     };
-    std::vector<std::vector<CellSum>> sums(pitch_luminance_parts);  // part k is of set k modulo their number
+    std::vector<std::vector<CellSum>> sums(pitch_luminance_parts);  // part k belongs to set k modulo their number
     const PanelBehind panel(g);
     parts.run(pitch_luminance_parts, [&](int part) {
         std::vector<CellSum>& sum = sums[std::size_t(part)];
@@ -119,7 +123,7 @@ PitchLuminance pitch_luminance(const EyeRays& rays, const Display& d, const Geom
             const double up = 0.5 * lattice.pitch[1] * c[1];
             const Vec3d at = rays.point(axis.x + lattice.half_pitch[0] * c[0], axis.y + up);
             if (!panel.meets(eye, at[0], at[1], inner_panel)) continue;
-            // Along strips nothing repeats: the place within a length as long as their pitch
+            // Along strips nothing repeats: the position is taken modulo the pitch.
             const double turns = up / lattice.pitch[0], number = lattice.strips ? 2 * (turns - std::floor(turns)) - 1 : c[1];
             CellSum& seen = sum[(side - 1 - cell(number)) * side + cell(c[0])];
             seen.light += rays.look_through(eye, at, c[2], c[3]).light;
@@ -164,7 +168,7 @@ Estimate michelson(const std::vector<Sums>& values) {
     }
     Estimate contrast = estimate(found);
     contrast.value = std::clamp(contrast.value, 0., 1.);
-    // Sets that miss the true places by chance give too little contrast, all sets together too much.
+    // Single sets may miss the true positions by chance and give too little contrast; all sets together give too much.
     contrast.error = std::hypot(contrast.error, michelson(means(values)) - contrast.value);
     return contrast;
 }

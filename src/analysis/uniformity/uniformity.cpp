@@ -1,3 +1,5 @@
+// The measure of uniformity: figures, maps and texts. docs/measures.md, "Uniformity and efficiency".
+
 #include "analysis/uniformity/uniformity.h"
 
 #include "analysis/resolution/fringes.h"
@@ -12,10 +14,10 @@
 #include <array>
 #include <cmath>
 
-// What becomes of a white panel's light. docs/measures.md, "Uniformity and efficiency".
 namespace lfdsim {
 namespace {
 
+/// Adds the luminance over the screen, with theory.
 void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s, double distance) {
     const Geometry& g = s.geometry();
     const double greatest = screen.greatest();
@@ -52,6 +54,7 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
             "middle 80 % excludes it.");
 }
 
+/// Adds the dark bands between lenses: contrast along each imaging axis, and over all positions of the pitch (dots).
 void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     constexpr int side = PitchLuminance::side;
     const Lattice<double>& lattice = s.geometry().lattice;
@@ -86,6 +89,7 @@ void add_bands(Result& result, const PitchLuminance& pitch, const Subject& s) {
     result.tables.push_back(std::move(table));
 }
 
+/// Adds the luminance over viewing angle.
 void add_angles(Result& result, Subject& s, const EyeRays& rays, double distance, Parts& parts) {
     const std::vector<double> angles = luminance_angles_deg();
     const LuminanceOverAngle luminance(s, rays, distance);
@@ -111,13 +115,15 @@ void add_angles(Result& result, Subject& s, const EyeRays& rays, double distance
     result.add(std::move(curves));
 }
 
+/// Adds the light efficiency.
 void add_budget(Result& result, const std::array<LightBudget, independent_sets>& budgets) {
     const auto share = [&](double LightBudget::*part, double LightBudget::*whole) {
         Estimate found = jackknife([&](int without) {
             const LightBudget b = mean_budget(budgets, without);
             return b.*whole > 0 ? b.*part / (b.*whole) : 0;
         });
-        found.value = std::min(found.value, 1.);  // both are sums over random rays, and no part is more than the whole
+        // Part and whole are sums over random rays, so that their ratio may exceed 1 by noise.
+        found.value = std::min(found.value, 1.);
         return found;
     };
     result.add("light.efficiency", share(&LightBudget::leaves, &LightBudget::reaches_array),

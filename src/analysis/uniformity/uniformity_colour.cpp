@@ -1,3 +1,5 @@
+// Uniformity of colour. docs/measures.md, "Uniformity and efficiency".
+
 #include "analysis/uniformity/uniformity_colour.h"
 
 #include "analysis/core/figure_json.h"
@@ -9,29 +11,29 @@
 #include <bit>
 #include <cmath>
 
-// docs/measures.md, "Uniformity and efficiency".
 namespace lfdsim {
 namespace {
 
 constexpr int most_colour_parts_along = 48;
 constexpr std::int64_t colour_lines_of_screen = std::int64_t(1) << 23;
 constexpr int colour_lines_of_angle = 1 << 13, most_colour_angles = 257;
-constexpr std::array shifts{0.19, 0.43, 0.71};  // of angles between those, in steps, each with ...
-constexpr int fewer_lines = 4;                  // ... a quarter of their lines
+// Figures over angle are checked by angles between those, shifted by these parts of a step, with a quarter of the lines each.
+constexpr std::array shifts{0.19, 0.43, 0.71};
+constexpr int fewer_lines = 4;
 
-/// Lines of sight of each set in each part.
+/// Returns the number of lines of sight of each set in each part, a power of two from 64 to 2048.
 int colour_lines_a_set(const ScreenParts& screen) {
     const std::int64_t each = colour_lines_of_screen / (screen.count() * independent_sets);
     return int(std::bit_floor(std::uint64_t(std::clamp<std::int64_t>(each, 64, 2048))));
 }
 
-/// Light of a block of lenses by all sets, and the share of it that is on the screen.
+/// The light of a block of lenses by all sets, and the share of its lines that are on the screen.
 struct BlockLight {
     ColourSums light{};
     double on_screen = 0;
 };
 
-/// The sets' choices are those from `first_set` on.
+/// Traces `lines` lines of each set; the sets are those from `first_set` on.
 BlockLight light_of_block(const ColouredWhite& white, const Subject& s, const Vec3d& eye, const ScreenParts& screen,
                           const LensBlock& block, int lines, int first_set) {
     BlockLight block_light;
@@ -44,7 +46,7 @@ BlockLight light_of_block(const ColouredWhite& white, const Subject& s, const Ve
     return block_light;
 }
 
-/// The spread of colour over the parts that are on the screen; the others have no colour, and are not dark.
+/// Returns the spread of colour over the parts that are on the screen. The others have no colour, and do not count as dark.
 ColourSpread spread_on_screen(const std::vector<BlockLight>& parts, const std::vector<double>& lenses) {
     std::vector<ColourSums> light;
     std::vector<double> weights;
@@ -67,7 +69,7 @@ ColourSpread spread_on_screen(const std::vector<BlockLight>& parts, const std::v
     return spread;
 }
 
-/// Eyes' angles within the field of view, eight for each view where that is not too many.
+/// Returns the eyes' angles within the field of view: eight for each view, from 33 to 257.
 std::vector<double> eyes_deg(const Subject& s) {
     const AxisTheory& t = s.theory(0);
     const double half = std::min(80., 0.5 * (is_strips(s.display().array) ? s.theory().fov_horizontal_deg : t.fov_deg));
@@ -77,7 +79,7 @@ std::vector<double> eyes_deg(const Subject& s) {
     return angles;
 }
 
-/// `name`: of the figures; `of`: of what. `missing` is noted where there is no light.
+/// Adds figures of a spread: `name` in their paths, `of` in their labels, `missing` as the note if there is no light.
 void add_spread(Result& result, const std::string& name, const std::string& of, const ColourSpread& spread, const char* missing) {
     for (const auto& [kind, difference] : {std::pair{"largest", spread.largest}, {"mean", spread.mean}}) {
         const std::string path = fmt::format("colour.{}_delta_uv_{}", name, kind);
@@ -88,6 +90,7 @@ void add_spread(Result& result, const std::string& name, const std::string& of, 
     }
 }
 
+/// Adds the spread of colour over the screen, on axis: figures, map and table.
 void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
     const Vec3d eye{0, 0, distance};
     const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
@@ -117,15 +120,16 @@ void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double d
     result.tables.push_back(std::move(table));
 }
 
-/// Angles between others, by a share of their step.
+/// Returns the angles that lie between others, by a share of their step.
 std::vector<double> between(const std::vector<double>& angles, double shift) {
     std::vector<double> shifted;
     for (std::size_t k = 0; k + 1 < angles.size(); ++k) shifted.push_back(angles[k] + shift * (angles[k + 1] - angles[k]));
     return shifted;
 }
 
-/// The error of the mean over a few angles against that over all: each step of the distance lies anywhere between two of them,
-/// which is a standard deviation of 1/sqrt(12) of an interval; twice that. Dark angles have no distance; steps lead over them.
+/// Returns the error of a mean over a few angles against that over all angles: the distance steps anywhere between two of them,
+/// which is a standard deviation of 1/sqrt(12) of the step's height; twice that. Dark angles, which have no distance, are
+/// skipped.
 double between_angles(std::vector<double> distance) {
     std::erase_if(distance, [](double d) { return !std::isfinite(d); });
     double squares = 0;
@@ -133,13 +137,14 @@ double between_angles(std::vector<double> distance) {
     return distance.empty() ? 0 : 2 * std::sqrt(squares) / double(distance.size());
 }
 
-/// Colours change in steps where light passes from one subpixel to the next: what other angles find, beyond their own error,
-/// belongs to the error.
+/// Widens the error of a figure so that it covers the figure of other angles, less its error: colours change in steps where light
+/// passes from one subpixel to the next.
 void widen(Estimate& figure, const Estimate& found) {
     if (std::isfinite(figure.value) && std::isfinite(found.value))
         figure.error = std::max(figure.error, std::abs(found.value - figure.value) - found.error);
 }
 
+/// Adds the spread of colour over viewing angle of a block in the array's middle.
 void add_colour_over_angle(const ColouredWhite& white, const Subject& s, double distance, Parts& parts, Result& result) {
     const std::vector<double> angles = eyes_deg(s);
     const ScreenParts screen(s.display(), s.geometry(), most_colour_parts_along);
