@@ -1,3 +1,6 @@
+// The measure of the depth of field: likeness of the simulated view and a photograph of the scene over the scene's depth, and
+// resolution by theory. docs/measures.md, "Depth of field".
+
 #include "analysis/resolution/dof.h"
 
 #include "analysis/core/elemental_panel.h"
@@ -13,22 +16,20 @@
 #include <algorithm>
 #include <cmath>
 
-// SSIM between the simulated view and a photograph of the scene, against the scene's depth; beside it the depths of field by spot
-// size and diffraction. docs/measures.md, "Depth of field".
 namespace lfdsim {
 namespace {
 
-constexpr double least_depth_ssim = 0.85, most_slope_per_mm = 0.02 / 10;  // the 2019 paper's, which counts in centimetres
+constexpr double least_depth_ssim = 0.85, most_slope_per_mm = 0.02 / 10;  // of the 2019 paper, 0.02 per centimetre
 
-/// SSIM of screen and of content along one run.
+/// SSIM of screen and of content over the scene's depth.
 struct DepthCurves {
     Curve screen, content;
 };
 
-/// The noise is measured at one place.
+/// Measures the curves. Their noise is measured at one depth: that of the description, or the one nearest to it.
 DepthCurves measure(Subject& s, const std::vector<double>& depths, double white, Job& job) {
     DepthCurves curves{{depths, {}}, {depths, {}}};
-    std::size_t noisy = 0;  // where the description puts the scene, or nearest to that
+    std::size_t noisy = 0;
     const auto away = [&](std::size_t k) { return std::abs(depths[k] - s.geometry().content_depth_mm); };
     for (std::size_t k = 1; k < depths.size(); ++k)
         if (away(k) < away(noisy)) noisy = k;
@@ -49,22 +50,23 @@ DepthCurves measure(Subject& s, const std::vector<double>& depths, double white,
     return curves;
 }
 
-/// Adds, to limits beyond the run's ends, why it ends there.
+/// Returns an interval with the reason why the run ends added to limits that were searched for to its ends.
 Interval explained(Interval i, const DepthRun& run) {
     if (i.low.searched_out) i.low.missing += ": " + run.why_low;
     if (i.high.searched_out) i.high.missing += ": " + run.why_high;
     return i;
 }
 
-/// The interval common to both: of each end the one nearer to the middle.
+/// Returns the interval common to both, given about the same centre: at each end the limit nearer to it.
 Interval narrower(const Interval& a, const Interval& b) {
     if (a.empty || b.empty) return a.empty ? a : b;
     const auto inner = [](const Limit& l, const Limit& m, bool low) { return (l.place() > m.place()) == low ? l : m; };
     return {inner(a.low, b.low, true), inner(a.high, b.high, false)};
 }
 
-/// The published rules, each as the connected interval about the depth that is most alike; and both together, on either side of the
-/// lenses. Returns where both hold, for a plot: ends that are uncertain or beyond the search as far as they are known.
+/// Adds the published criteria, each as the connected interval about the depth of greatest likeness, and, for the content, both
+/// together on either side of the lenses. Returns where both are met, for a plot: ends that are uncertain or beyond the search as
+/// far as they are known.
 PlotBar add_rules(Result& result, const std::string& region, const Curve& curve, const DepthRun& run) {
     const bool content = region == "content";
     const double most_alike = curve.at[std::size_t(std::ranges::max_element(curve.value) - curve.value.begin())];
@@ -97,7 +99,7 @@ PlotBar add_rules(Result& result, const std::string& region, const Curve& curve,
     return bar;
 }
 
-/// The resolution that the lenses' pitch and the panel's pixels allow at each depth, as the eye sees it.
+/// Adds the resolution that lens pitch and panel pixels allow at each depth, as the eye sees it.
 void add_resolution(const Subject& s, Result& result, const std::vector<double>& depths) {
     const Geometry& g = s.geometry();
     const double eye = eye_distance_mm(s.display());
@@ -113,7 +115,7 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
     std::vector<double> pixel = table.columns[4].values;
     const double most = 4 * std::ranges::max(table.columns[3].values);
     for (double& x : pixel)
-        if (!(x <= most)) x = nan;  // near the lenses it grows without end
+        if (!(x <= most)) x = nan;  // near the lenses it is unbounded
     plot.series = {{"of the lens pitch", depths, table.columns[3].values}, {"of the panel's pixels", depths, std::move(pixel)}};
     const double z = g.content_depth_mm, at_content = std::min(by_lens(z), by_pixel(z));
     const FigureValue per_degree = cycles_per_degree(g, at_content, z, eye);
@@ -129,6 +131,7 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
     result.plots.push_back(std::move(plot));
 }
 
+/// Adds the depth of field by likeness, and its curves to `plot`; or why no depth can be shown.
 void add_likeness(Subject& s, Result& result, Plot& plot, const DepthRun& run, Job& job) {
     const std::vector<double>& depths = run.depths_mm;
     if (depths.size() < 3) {
@@ -151,7 +154,7 @@ void add_likeness(Subject& s, Result& result, Plot& plot, const DepthRun& run, J
     result.figures["searched_mm"] = {depths.front(), depths.back()};
 }
 
-/// An interval's two pieces, for a plot.
+/// Returns the pieces of a range on either side of the lenses, for a plot.
 std::vector<std::array<double, 2>> spans_of(const Json& range) {
     std::vector<std::array<double, 2>> spans;
     for (const char* side : {"behind_mm", "in_front_mm"}) {

@@ -1,3 +1,13 @@
+// The MTF of one plane from pictures of slanted edges. docs/measures.md, "Resolution".
+//
+// An edge seen through a lens array is a mosaic. Its mean profile is that of the display only if each distance from the edge is
+// seen through all parts of a lens and of a panel pixel equally often. So the bars are slanted, and from picture to picture they
+// move on by a share of their width: together the edges cover the plane without gaps, since over the length of a bar an edge
+// leans by a whole number of these steps.
+//
+// Lengths are in mm in the plane of the bars, which is parallel to the panel; `across` is the direction in which resolution is
+// measured (the panel's x for upright bars), `along` the other.
+
 #include "analysis/resolution/edge_plane.h"
 
 #include "analysis/core/elemental_panel.h"
@@ -6,21 +16,14 @@
 #include <algorithm>
 #include <cmath>
 
-// An edge seen through a lens array is a mosaic. Its mean profile is that of the display only if each distance from the edge is
-// seen through all parts of a lens and of a panel pixel equally often. So the bars are slanted, and each picture shows them moved
-// on by a share of their width: together the edges cover the plane without gaps, since an edge leans, over the length of a bar, by
-// a whole number of these steps.
-//
-// Lengths in mm in the plane of the bars, which is parallel to the panel; `across` is the direction in which the resolution is
-// measured (the panel's x for upright bars), `along` the other. The eye stands on a circle about the middle of that plane.
 namespace lfdsim {
 namespace {
 
-constexpr int least_lenses = 400;  // that edges cross, so that as many phases of the lenses enter the mean
-constexpr double golden = 0.6180339887498949;
-constexpr int most_pictures = 32;                         // of one view, to reach as many
-constexpr double most_lost = 0.2;                         // of the light, beyond an edge's reach
-constexpr double pixels_wanted = 8e5, most_pixels = 4e6;  // of all pictures of a view
+constexpr int least_lenses = 400;              // crossed by edges, so that as many phases of the lenses contribute to the mean
+constexpr double golden = 0.6180339887498949;  // least commensurable part of a pitch or a pixel
+constexpr int most_pictures = 32;              // of one view, to cross as many lenses
+constexpr double most_lost = 0.2;              // share of the light beyond an edge's reach with which there is no figure
+constexpr double pixels_wanted = 8e5, most_pixels = 4e6;  // of all pictures of a view together
 
 }  // namespace
 
@@ -33,11 +36,12 @@ EdgePlane::EdgePlane(const Subject& s, double depth_mm, const Direction& directi
 
 EdgeEye EdgePlane::eye(double angle_deg) const { return {angle_deg, s_.viewing_distance_mm()}; }
 
-/// The lenses' pitch across the edges as seen in their plane.
+/// Returns the lens pitch across the edges, projected into their plane.
 double EdgePlane::pitch_mm() const { return pitch_mm_ * scale_to_plane(s_.geometry(), bars_.z_mm, eye(0)); }
 
-/// Makes bars wide enough to hold twice the blur, such that neighbouring edges meet the lenses in different phases, or as wide as
-/// fit on the screen.
+/// Makes bars wide enough for twice the blur, a whole number of pitches and golden wide so that neighbouring edges meet the
+/// lenses in different phases, or as wide as the screen allows. Chooses the number of pictures and the bars' length so that over
+/// it an edge leans by a whole number of steps.
 void EdgePlane::set_bars(double blur_mm, double angle_deg) {
     const double pitch = pitch_mm(), lean_rad = std::abs(bars_.lean_deg) * degree, tangent = std::tan(lean_rad);
     const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(angle_deg));
@@ -50,7 +54,7 @@ void EdgePlane::set_bars(double blur_mm, double angle_deg) {
     bars_.length_mm = std::floor(lean / least) * least / tangent;
 }
 
-/// Takes more pictures where too few edges fit into one.
+/// Multiplies the number of pictures if edges of all of them would cross fewer than least_lenses lenses.
 void EdgePlane::set_pictures(std::span<MtfCurves* const> curves) {
     double fewest = least_lenses;
     constexpr int places = 8;
@@ -73,7 +77,8 @@ void EdgePlane::show(int picture) {
     panel_ = bars_panel(s_.display(), s_.geometry(), bars_, s_.threads());
 }
 
-/// A pixel of the pictures, in the edges' plane: at most a quarter of the finest period.
+/// Returns the size of the pictures' pixels in the edges' plane: at most a quarter of the finest period and a tenth of a pitch,
+/// but not so small that all pictures together have more than most_pixels; incommensurable with the pitch.
 double EdgePlane::pixel_mm(double most_per_mm) const {
     const double across = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(0))[0];
     const double area = pictures_ * bars_.length_mm * 2 * across;
@@ -82,7 +87,7 @@ double EdgePlane::pixel_mm(double most_per_mm) const {
     return pitch_mm() / (std::ceil(pitch_mm() / fine) + golden);
 }
 
-/// Adds the picture that an eye sees. False: there is no edge in it.
+/// Adds the picture that an eye sees. Returns whether there is an edge in it.
 bool EdgePlane::look(EdgeSpread& spread, EdgeEye from, double pixel, MtfCurves& curves) const {
     const EdgeView view = edge_view(s_.display(), s_.geometry(), bars_, from, pixel);
     if (view.edges.lines.empty()) return false;
@@ -94,7 +99,7 @@ bool EdgePlane::look(EdgeSpread& spread, EdgeEye from, double pixel, MtfCurves& 
 }
 
 void EdgePlane::measure(std::span<MtfCurves> all_curves) {
-    std::vector<MtfCurves*> curves;  // of the angles at which lines of sight have found the resolution
+    std::vector<MtfCurves*> curves;  // of the angles at which lines of sight gave a modulation
     double blur_mm = 0;
     for (MtfCurves& m : all_curves) {
         if (!m.missing.empty()) continue;
@@ -105,6 +110,7 @@ void EdgePlane::measure(std::span<MtfCurves> all_curves) {
     const double farthest = curves.back()->angle_deg;
     const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(farthest));
     if (!(across > 0 && along > 0)) return;
+    // Bars must fit also at the farthest angle.
     set_bars(blur_mm, farthest);
     set_pictures(curves);
     const double pixel = pixel_mm(curves.front()->frequencies_per_mm.back());
@@ -122,6 +128,7 @@ void EdgePlane::measure(std::span<MtfCurves> all_curves) {
     for (std::size_t n = 0; n < curves.size(); ++n) {
         MtfCurves& m = *curves[n];
         if (m.lenses == 0) continue;
+        // The MTF, with all sets and without each; where too much light is missing at frequency 0, none is given.
         std::vector<double> per_pixel = m.frequencies_per_mm;
         for (double& f : per_pixel) f *= pixel;
         const auto all = spreads[n].mtf(per_pixel);

@@ -11,13 +11,15 @@
 
 namespace lfdsim {
 
+/// Slanted edges in one plane, and their MTF from pictures at several angles.
 class EdgePlane {
   public:
-    /// Edges at a depth in front of the vertex plane. `white`: the panel that shows white all over.
+    /// Edges at a depth, mm from the vertex plane, across a direction. `white`: the panel that shows white all over. Keeps
+    /// references to all arguments.
     EdgePlane(const Subject&, double depth_mm, const Direction&, const SummedPanel& white, const Job&);
 
-    /// Adds the edges to the curves of this plane and direction, from several angles, except where modulation is missing. Throws
-    /// Stopped.
+    /// Adds the edges' MTF to the curves of this plane and direction, given at several angles, except to those that have no
+    /// modulation by lines of sight. Throws Stopped.
     void measure(std::span<MtfCurves>);
 
   private:
@@ -25,6 +27,7 @@ class EdgePlane {
     double pitch_mm() const;
     void set_bars(double blur_mm, double angle_deg);
     void set_pictures(std::span<MtfCurves* const>);
+    /// Makes the panel that shows the bars moved on by `picture` steps.
     void show(int picture);
     double pixel_mm(double most_per_mm) const;
     bool look(EdgeSpread&, EdgeEye, double pixel, MtfCurves&) const;
@@ -32,10 +35,10 @@ class EdgePlane {
     const Subject& s_;
     const SummedPanel& white_;
     const Job& job_;
-    double pitch_mm_;  // the lenses' in the measured direction
+    double pitch_mm_;  // lens pitch in the measured direction
     Bars bars_;
-    std::unique_ptr<ShownPanel> panel_;  // that shows the bars
-    int pictures_ = 1;                   // the bars move by 1/pictures_ of their width from one to the next
+    std::unique_ptr<ShownPanel> panel_;  // the panel that shows the bars
+    int pictures_ = 1;                   // bars move by width_mm/pictures_ from one picture to the next
 };
 
 }  // namespace lfdsim

@@ -1,3 +1,8 @@
+// Slanted edges on the panel and in pictures. docs/measures.md, "Resolution", edges.
+//
+// Positions in the bars' plane are (a, b), a across upright bars to the right and b along them downwards: (x, -y). For bars that
+// are not upright they are (-y, x). A picture, transposed for the latter, has its columns along a and its rows along b.
+
 #include "analysis/resolution/edge_view.h"
 
 #include "analysis/core/elemental_panel.h"
@@ -11,22 +16,21 @@
 #include <algorithm>
 #include <cmath>
 
-// Places in the bars' plane are (a, b), a rising across upright bars to the right and b down along them: (x, -y). For bars that
-// are not upright the two swap: (-y, x). A picture, transposed for the latter, has its columns along a, rows along b.
 namespace lfdsim {
 namespace {
 
 constexpr int samples_a_pixel = 16;
 
-/// A rectangle along the bars' axes a and b, mm.
+/// A rectangle along a and b, mm.
 struct ScreenRect {
     double a, b, half_a, half_b;  // centre and half sizes
 };
 
-/// The upright rectangle within the array and in front of the panel, less a lens at each border.
+/// Returns the upright rectangle within the array and in front of the panel, less a lens at each border; along x and y.
 ScreenRect screen_middle(const Display& d, const Geometry& g) {
     const double c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
     const double w = 0.5 * g.array_width_mm, h = 0.5 * g.array_height_mm;
+    // The largest scaled copy of the array's rectangle that fits upright into the rotated one
     const double share = std::min(w / (w * c + h * s), h / (w * s + h * c));
     const auto along = [&](double offset, double array_half, double panel_half, double pitch, double& centre, double& half) {
         const double low = std::max(offset - array_half, -panel_half), high = std::min(offset + array_half, panel_half);
@@ -40,8 +44,8 @@ ScreenRect screen_middle(const Display& d, const Geometry& g) {
     return box;
 }
 
-/// The rectangle of the bars' plane that the eye sees through the middle of the screen; not so long that slanted edges would
-/// leave it sideways.
+/// Returns the rectangle of the bars' plane that the eye sees through the middle of the screen, not longer than slanted edges
+/// remain within its width.
 ScreenRect seen_box(const Display& d, const Geometry& g, const Bars& bars, const EdgeEye& eye) {
     const ScreenRect m = screen_middle(d, g);
     const double k = scale_to_plane(g, bars.z_mm, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;
@@ -67,7 +71,7 @@ std::vector<Direction> directions(const Display& d) {
 
 Bars bars_across(const Direction& direction, double z_mm) {
     const bool upright = std::abs(direction.x) >= std::abs(direction.y);
-    // Edges that stand straight across the direction lean by this, within 45 degrees.
+    // Edges at right angles to the direction lean by this angle, within 45 degrees.
     const double straight = (upright ? std::atan(-direction.y / direction.x) : std::atan(-direction.x / direction.y)) / degree;
     // The edge is not along the panel's rows or columns, where all of its parts would meet the pixels alike, but not far from
     // them either, since long edges then fit on the screen.
@@ -102,6 +106,7 @@ std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& g
                 const NodalLine l = pickup.line(pickup.x_mm(double(k) + (*shown)[0]), pickup.y_mm(double(row) + (*shown)[1]));
                 if (!l.owned) continue;
                 if (bars) {
+                    // The point that the nodal line meets in the bars' plane, across the bars
                     const double u = (l.x + height * l.mx) * axis[0] + (l.y + height * l.my) * axis[1] - bars->offset_mm;
                     if (std::fmod(std::floor(u / bars->width_mm), 2) != 0) continue;
                 }
@@ -122,20 +127,22 @@ std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Ba
 EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars& bars, const EdgeEye& eye, double pixel_mm) {
     EdgeView view{display, {}, {}};
     const double sine = std::sin(bars.lean_deg * degree), cosine = std::cos(bars.lean_deg * degree), tangent = sine / cosine;
-    // Point samples: filtered ones average the panel over boxes, which would count as blur. Noise does not bias the mean edge.
+    // Filtered samples average the panel over boxes, which would count as blur. Point samples are noisy, which does not bias the
+    // mean edge.
     view.seen.render.estimator = Estimator::point;
     view.seen.render.samples = samples_a_pixel;
     ScreenRect box = seen_box(display, geometry, bars, eye);
     box.half_b = 0.5 * bars.length_mm;
-    const double margin =
-        box.half_b * std::abs(tangent) + 0.5 * bars.width_mm / cosine;  // from an edge's middle to its farthest pixel
+    // The distance from an edge's middle to its farthest pixel
+    const double margin = box.half_b * std::abs(tangent) + 0.5 * bars.width_mm / cosine;
     const Pitch& pitch = display.array.pitch_mm;
     const double apart =  // along the edges from lens to lens; strips cross them at the slant
         is_strips(display.array) ? pitch[0] / std::sin(slant_deg * degree) : pitch[bars.upright ? 1 : 0];
     const int per_edge = std::max(1, int(2 * box.half_b / (cosine * scale_to_plane(geometry, bars.z_mm, eye) * apart)));
-    // Edge k has its middle at this a.
+    // Returns the position a of the middle of edge k.
     const auto middle = [&](double k) { return (bars.offset_mm + k * bars.width_mm - box.b * sine) / cosine; };
     const double nearest = std::round((box.a * cosine + box.b * sine - bars.offset_mm) / bars.width_mm);
+    // The edges that fit with their whole reach
     double first = nearest, last = nearest;
     const auto fits = [&](double k) { return std::abs(middle(k) - box.a) + margin <= box.half_a; };
     if (!fits(nearest)) return view;
@@ -143,7 +150,7 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     while (fits(last + 1)) ++last;
     view.lenses = per_edge * int(last - first + 1);
 
-    // Pixels count from the camera's axis, which meets the bars' plane at (axis_a, axis_b).
+    // The crop, in pixels from the camera's axis, which meets the bars' plane at (axis_a, axis_b)
     const double axis_a = bars.upright ? eye.x_mm() : -eye.aside_mm, axis_b = bars.upright ? -eye.aside_mm : eye.x_mm();
     const int i0 = int(std::floor((middle(first) - margin - axis_a) / pixel_mm)),
               i1 = int(std::ceil((middle(last) + margin - axis_a) / pixel_mm)),
@@ -152,6 +159,7 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     const int half_a = std::max(std::abs(i0), std::abs(i1)), half_b = std::max(std::abs(j0), std::abs(j1));
     const Rect across{i0 + half_a, j0 + half_b, i1 + half_a, j1 + half_b};
     view.crop = bars.upright ? across : Rect{across.y0, across.x0, across.y1, across.x1};
+    // A camera that looks along -z, with a frame in the panel's plane: the bars' plane then has pixels of pixel_mm.
     Camera& camera = view.seen.camera;
     camera = {};
     camera.position_mm = {eye.x_mm(), eye.aside_mm, eye.z_mm()};

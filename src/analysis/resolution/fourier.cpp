@@ -8,7 +8,8 @@
 namespace lfdsim {
 namespace {
 
-/// Cooley and Tukey's, of n values `step` apart.
+/// Transforms n values `step` apart in place by Cooley and Tukey's algorithm: values are put in the order of reversed bits, then
+/// sums of 2, 4, 8 ... values are combined. turns[k] = exp(-2 pi i k/n).
 void transform(std::complex<double>* v, int n, std::ptrdiff_t step, const std::vector<std::complex<double>>& turns) {
     for (int k = 1, reversed = 0; k < n; ++k) {
         int bit = n / 2;

@@ -16,11 +16,11 @@
 namespace lfdsim {
 namespace {
 
-constexpr double lenses_near_by = 16;  // of a picture from near by
-constexpr int near_columns = 480, near_rows = 300, fringe_samples = 36;
+constexpr double lenses_near_by = 16;                                    // across a picture from near by
+constexpr int near_columns = 480, near_rows = 300, fringe_samples = 36;  // of such a picture; of each pixel
 constexpr std::int64_t most_screen_columns = 960;
 
-/// A picture whose pixels are means over their area: single rays would beat with lenses and subpixels.
+/// Returns a picture whose pixels are means over their area: single rays would beat with lenses and subpixels. Throws Stopped.
 Image mean_picture(Display d, const Subject& s, const SummedPanel& panel, const Job& job) {
     d.camera.pixel_filter = PixelFilter::box;
     d.render.estimator = Estimator::filtered;
@@ -31,7 +31,7 @@ Image mean_picture(Display d, const Subject& s, const SummedPanel& panel, const 
     return std::move(r.image);
 }
 
-/// A display whose frame 16 lenses fill about the point (0, 0, z_mm), for an eye at an angle.
+/// Returns the display with a camera, at an angle, whose frame 16 lenses about the point (0, 0, z_mm) fill.
 Display near_view(const Subject& s, double z_mm, double angle_deg) {
     const EdgeEye eye{angle_deg, s.viewing_distance_mm()};
     Display d = seen_by(s.display(), {eye.x_mm(), 0, eye.z_mm()});
@@ -49,7 +49,7 @@ double mean_of(const Image& image) {
     return sum / double(image.rgb.size());
 }
 
-/// Scales pictures so that the brightest light in them is 1.
+/// Scales pictures so that the brightest light in them is 1. Returns the factor.
 double expose_together(const std::vector<Image*>& images) {
     float most = 0;
     for (const Image* image : images) most = std::max(most, *std::max_element(image->rgb.begin(), image->rgb.end()));
@@ -59,7 +59,7 @@ double expose_together(const std::vector<Image*>& images) {
     return 1 / double(most);
 }
 
-/// The bars themselves, white as bright as given, through the same camera.
+/// Returns the bars themselves as the same camera sees them, white as bright as given.
 Image bars_picture(const Display& d, const Bars& bars, double white) {
     constexpr int parts = 4;  // of a pixel, along each axis
     const CameraAxes axes = camera_axes(d.camera);
@@ -74,6 +74,7 @@ Image bars_picture(const Display& d, const Bars& bars, double white) {
             Vec3d to{};
             for (std::size_t k = 0; k < 3; ++k)
                 to[k] = axes.forward[k] * axes.distance_mm + axes.right[k] * right + axes.up[k] * up;
+            // The point of the bars' plane on the ray, across the bars
             const double far = (bars.z_mm - from[2]) / to[2];
             const double place = (from[0] + far * to[0]) * axis[0] + (from[1] + far * to[1]) * axis[1] - bars.offset_mm;
             if (place < 0 || place >= bars.width_mm) continue;

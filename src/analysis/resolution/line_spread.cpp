@@ -17,7 +17,8 @@ namespace lfdsim {
 namespace {
 
 constexpr int spread_lines_a_set = 4096;
-constexpr std::array plastic{0.7548776662466927, 0.5698402909980532};  // steps that fill a square evenly
+// Steps of an additive recurrence that fills a square evenly
+constexpr std::array plastic{0.7548776662466927, 0.5698402909980532};
 
 }  // namespace
 
@@ -55,6 +56,7 @@ Modulation LineSpread::mtf(double step_per_mm, int count) const {
     tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t set) {
         sums[set].resize(std::size_t(count));
         for (const WeightedOffset& line : sets_[set]) {
+            // exp(2 pi i k step off) by repeated multiplication
             const std::complex<double> turn = std::polar(1., 2 * pi * step_per_mm * line.off_mm);
             std::complex<double> wave = line.light;
             for (std::complex<double>& sum : sums[set]) {
@@ -96,12 +98,13 @@ void SeenThroughLenses::trace(const Subject& s, const Geometry& g, const Vec3d& 
             const Vec3d aimed = rays.aim(eye, choice);
             const Sight sight = rays.look_through(eye, aimed, choice[2], choice[3]);
             if (!(sight.light > 0)) continue;
+            // Adds the line for pixels that are shifted by `shift` of a pixel.
             const auto add = [&](Sets& to, const std::array<double, 2>& shift) {
                 const std::optional<ShownPoint> seen = shown({sight.x / pixel + 0.5 * double(d.panel.pixels[0]) + shift[0],
                                                               0.5 * double(d.panel.pixels[1]) - sight.y / pixel + shift[1]});
                 if (!seen) return;
                 const NodalLine line = pickup.line(pickup.x_mm(seen->column - shift[0]), pickup.y_mm(seen->row - shift[1]));
-                if (!line.owned) return;  // black, whatever is shown
+                if (!line.owned) return;  // it is black, whatever is shown
                 to[std::size_t(set)].push_back({{line.x, line.y},
                                                 {line.mx, line.my},
                                                 {aimed[0], aimed[1]},
@@ -118,7 +121,7 @@ SeenThroughLenses::SeenThroughLenses(const Subject& s, const Vec3d& eye, std::si
     : principal_mm_(s.geometry().rear_principal_mm), vertex_mm_(s.geometry().vertex_plane_mm) {
     const Display& d = s.display();
     const ChannelPixels pixels(d, channel);
-    // Most lines end where the channel does not shine: so many more are needed.
+    // Most lines end where the channel does not emit, so that more are needed.
     const int more = std::min(8, int(std::bit_ceil(unsigned(std::ceil(std::min(pixels.gain(), 8.))))));
     for (const auto& [geometry, weight] : light_paths(d, s.geometry(), channel))
         trace(s, geometry, eye, more * spread_lines_a_set, [&, share = weight](const std::array<double, 2>& place) {
@@ -145,6 +148,7 @@ LineSpread SeenThroughLenses::spread(double z_mm, const Direction& direction, Pi
     LineSpread::Sets sets;
     for (std::size_t set = 0; set < seen.size(); ++set)
         for (const LinePair& s : seen[set]) {
+            // Both lines at the plane, along the direction
             const double shown = along(s.at) + (z_mm - principal_mm_) * along(s.slope),
                          looked_at = along(s.aimed) + (z_mm - vertex_mm_) * along(s.straight);
             sets[set].push_back({shown - looked_at, s.light});

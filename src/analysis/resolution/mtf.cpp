@@ -1,3 +1,5 @@
+// The measure of resolution: its figures, texts and plots. docs/measures.md, "Resolution".
+
 #include "analysis/resolution/mtf.h"
 
 #include "analysis/core/channel_pixels.h"
@@ -17,7 +19,6 @@
 #include <string>
 #include <utility>
 
-// docs/measures.md, "Resolution".
 namespace lfdsim {
 namespace {
 
@@ -25,7 +26,7 @@ constexpr const char* across_alone =
     "strips do not image along their axes: in that direction a picture is as fine as the panel's pixels at any depth";
 constexpr std::array levels{std::pair{"mtf50", 0.5}, std::pair{"mtf10", 0.1}};
 
-/// Adds NAME and NAME_error of red, green and blue.
+/// Adds NAME and NAME_error of red, green and blue, times `scale`.
 template <class Figure>
 void add_channels(Json& json, const std::string& name, double scale, const Figure& figure) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -35,6 +36,7 @@ void add_channels(Json& json, const std::string& name, double scale, const Figur
     }
 }
 
+/// Returns the figures of one plane, direction and angle for scripts.
 Json to_json(const MtfCurves& m, const Resolution& r) {
     Json json{{"depth_mm", m.depth_mm}, {"angle_deg", m.angle_deg}, {"direction", m.direction.name}};
     for (const auto& [unit, scale] : {std::pair{"_per_mm", 1.}, std::pair{"_per_deg", m.mm_per_deg}}) {
@@ -61,7 +63,7 @@ Json to_json(const MtfCurves& m, const Resolution& r) {
     return json;
 }
 
-/// Why figures of measurement n are null.
+/// Adds notes on why figures of measurement n are null.
 void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& result) {
     const std::string path = fmt::format("measurements.{}", n);
     if (!m.has_theory())
@@ -74,8 +76,8 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
         const double last = m.frequencies_per_mm.back();
         const std::string never = fmt::format(
             "modulation is never below {:.0f} % up to the highest frequency measured, {:.4g} per mm", 100 * level, last);
-        const auto reason =
-            [&, at = level](std::initializer_list<LimitingFrequency> figures) -> std::string {  // empty: none is missing
+        // Returns why one of the figures is missing; empty if none is.
+        const auto reason = [&, at = level](std::initializer_list<LimitingFrequency> figures) -> std::string {
             for (const LimitingFrequency& of : figures)
                 if (std::isnan(of.found.value))
                     return std::isnan(of.least)
@@ -95,7 +97,8 @@ void add_notes(const MtfCurves& m, const Resolution& r, std::size_t n, Result& r
     }
 }
 
-/// The depth for which curves are plotted: the one nearest to the central depth plane.
+/// Returns the depth for which curves are plotted: the one nearest to the central depth plane, or the farthest if that is
+/// infinite.
 double plotted_depth_mm(const Subject& s, const std::vector<double>& depths) {
     const double middle = s.theory().central_depth_mm + s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
     return *std::min_element(depths.begin(), depths.end(), [&](double a, double b) {
@@ -105,6 +108,7 @@ double plotted_depth_mm(const Subject& s, const std::vector<double>& depths) {
 
 std::string label(const Direction& direction, double angle) { return fmt::format("{}, {:.3g} degrees", direction.told, angle); }
 
+/// Adds a line on the resolution of one plane, direction and angle.
 void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
     const double mtf50 = m.below(0.5).found.value;
     std::string remark = r.missing;
@@ -123,7 +127,7 @@ void add_findings(const MtfCurves& m, const Resolution& r, Result& result) {
                                .remark = remark});
 }
 
-/// The plot of the curves at one depth.
+/// Returns the plot of the curves at one depth.
 Plot curves(const Subject& s, const std::vector<MtfCurves>& all, double depth) {
     Plot plot{"mtf", fmt::format("Modulation transfer at {:.4g} mm", depth), "cycles per mm in that plane", "modulation", {}};
     const MtfCurves* first = nullptr;
@@ -149,6 +153,7 @@ Plot curves(const Subject& s, const std::vector<MtfCurves>& all, double depth) {
     return plot;
 }
 
+/// Adds lines, plots and tables of all planes.
 void report(const Subject& s, const std::vector<double>& depths, const std::vector<double>& angles,
             const std::vector<MtfCurves>& all, Result& result) {
     const double plotted = plotted_depth_mm(s, depths);
@@ -232,6 +237,7 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
     result.remarks.push_back(remark_on_channels(all));
 }
 
+/// Throws InputError if the eye is inside the display, or for edges near the eye.
 void check(const Subject& s, const std::vector<double>& depths, const std::vector<double>& angles) {
     const Geometry& g = s.geometry();
     const EdgeEye eye{angles.back(), s.viewing_distance_mm()};
@@ -263,6 +269,7 @@ std::vector<double> mtf_depths_mm(const Subject& s) {
     const EdgeEye eye{mtf_angles_deg(s).back(), s.viewing_distance_mm()};
     const double far = 0.75 * (eye.z_mm() - s.geometry().vertex_plane_mm);
     std::vector<double> depths;
+    // Without a central depth plane within reach depths are even from the lenses on.
     if (!(middle < far && middle > -100 * far)) {
         for (int k = 1; k <= 9; ++k) depths.push_back(far * k / 9);
         return depths;
@@ -281,6 +288,7 @@ Result measure_mtf(Subject& s, Job& job) {
     const std::vector<double> depths = mtf_depths_mm(s), angles = mtf_angles_deg(s);
     check(s, depths, angles);
     const auto white = bars_panel(s.display(), s.geometry(), {}, s.threads());
+    // Lines of sight depend on the angle only, and serve all planes.
     std::vector<SeenInColours> seen;
     for (const double angle : angles) {
         if (job.cancelled()) throw Stopped{};

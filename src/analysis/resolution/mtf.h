@@ -1,21 +1,23 @@
-// The modulation transfer function of what a display shows, from slanted edges at several depths and angles. Floor 3.
+// The measure of resolution: the modulation transfer function of what a display shows, at several depths and angles. Floor 3.
 #pragma once
 #include "analysis/core/result.h"
 #include "analysis/core/subject.h"
 
 namespace lfdsim {
 
-/// Depths of the edges in front of the vertex plane: those of the options, else nine, evenly on both sides of the central depth
-/// plane to twice as far as the depth of field reaches, but not nearer than a tenth of the central depth or farther than 3/4 of the
-/// way to the eye; where the plane itself is farther, nine from the lenses to there.
+/// Returns the depths of the edges, mm from the vertex plane: the option's, or nine, evenly on either side of the central depth
+/// plane as far as the published depth of field is deep, but not nearer to the lenses than a tenth of the central depth nor
+/// farther than 3/4 of the way to the eye; if the plane itself is farther, nine from the lenses to there.
 std::vector<double> mtf_depths_mm(const Subject&);
 
-/// Angles of the views, to the right: 0, a quarter and two fifths of the field of view (of strips, along the panel's rows), the
-/// last 45 at most.
+/// Returns the angles of the views to the right, degrees: 0, a quarter and two fifths of the field of view (of strips along the
+/// panel's rows), at most 30 and 45.
 std::vector<double> mtf_angles_deg(const Subject&);
 
+/// Returns the number of planes and directions.
 std::int64_t mtf_steps(const Subject&);
-/// Throws InputError where the eye stands inside the display, or edges at or behind the eye are asked for.
+/// Measures resolution (docs/measures.md, "Resolution"). Throws InputError if the eye is inside the display, or for edges at or
+/// behind the eye; Stopped.
 Result measure_mtf(Subject&, Job&);
 
 }  // namespace lfdsim

@@ -1,3 +1,5 @@
+// The channels of the measure of resolution. docs/measures.md, "Resolution".
+
 #include "analysis/resolution/mtf_colour.h"
 
 #include "analysis/core/figure_json.h"
@@ -7,11 +9,10 @@
 #include <fmt/format.h>
 #include <cmath>
 
-// docs/measures.md, "Resolution".
 namespace lfdsim {
 namespace {
 
-/// The mean distance of red's or blue's light from green's.
+/// Returns the mean distance of what a channel shows from what green shows, mm.
 Estimate from_green(const MtfCurves& m, std::size_t channel) {
     const Estimate &here = m.channels[channel].middle_mm, &green = m.channels[green_channel].middle_mm;
     return {here.value - green.value, std::hypot(here.error, green.error)};
@@ -21,7 +22,7 @@ double theory_from_green(const MtfCurves& m, std::size_t channel) {
     return m.has_theory() ? m.channels[channel].theory_middle_mm - m.channels[green_channel].theory_middle_mm : nan;
 }
 
-/// The three curves in their colours, theory as dots.
+/// Returns a plot of the three channels' curves in their colours, with theory as dots.
 Plot colour_plot(const MtfCurves& m, const std::string& name) {
     Plot plot{name,
               fmt::format("Modulation transfer of each colour at {:.4g} mm, {}, {:.3g} degrees", m.depth_mm, m.direction.told,
@@ -66,7 +67,7 @@ Json colours_json(const MtfCurves& m) {
 }
 
 void tell_mtf_of_colours(std::span<const MtfCurves* const> at_depth, Result& result) {
-    const MtfCurves *first = nullptr, *last = nullptr;  // of the first direction: on axis, and from farthest aside
+    const MtfCurves *first = nullptr, *last = nullptr;  // of the first direction: on axis, and from the farthest angle
     for (const MtfCurves* m : at_depth) {
         if (m->channels.empty() || !m->missing.empty()) continue;
         if (!first) first = m;

@@ -11,7 +11,7 @@
 namespace lfdsim {
 namespace {
 
-/// The errors of modulation at each frequency. `pixels_anywhere` may be empty.
+/// Returns the errors of modulation at each frequency: the jackknife's, and the change with pixels anywhere, which may be empty.
 std::vector<double> errors(const Modulation& m, const std::vector<double>& pixels_anywhere) {
     std::vector<double> found(m.all.size());
     for (std::size_t n = 0; n < found.size(); ++n) {
@@ -21,12 +21,14 @@ std::vector<double> errors(const Modulation& m, const std::vector<double>& pixel
     return found;
 }
 
+/// Returns where modulation falls below a level.
 LimitingFrequency crossing(const std::vector<double>& frequencies, const Modulation& m, const std::vector<double>& pixels_anywhere,
                            double level) {
     if (m.all.empty()) return {};
     Estimate found = jackknife([&](int k) { return falls_below(frequencies, k < 0 ? m.all : m.without[std::size_t(k)], level); });
     if (const double anywhere = falls_below(frequencies, pixels_anywhere, level); std::isfinite(anywhere))
         found.error = std::hypot(found.error, found.value - anywhere);
+    // The error reaches to where the curve less and plus its error crosses the level.
     std::vector<double> low = m.all, high = m.all;
     const std::vector<double> error = errors(m, pixels_anywhere);
     for (std::size_t n = 0; n < error.size(); ++n) low[n] -= error[n], high[n] += error[n];
@@ -35,7 +37,7 @@ LimitingFrequency crossing(const std::vector<double>& frequencies, const Modulat
     return {{found.value, std::max({found.error, found.value - least, most - found.value})}, least};
 }
 
-/// Whether modulation does so for sure, whatever its error.
+/// Returns whether modulation falls below one half, whatever its error.
 bool falls_below_half(const Modulation& m) {
     const std::vector<double> error = errors(m, {});
     for (std::size_t n = 0; n < error.size(); ++n)
@@ -43,7 +45,7 @@ bool falls_below_half(const Modulation& m) {
     return false;
 }
 
-/// The mean of exp(2 pi i nu off) in luminance, as theory has it.
+/// Returns the mean of exp(2 pi i nu off) of the luminance by theory.
 std::complex<double> luminance_wave(const std::vector<ChannelBlur>& channels, double per_mm, const Direction& direction) {
     std::complex<double> sum = 0;
     for (std::size_t c = 0; c < channels.size(); ++c) sum += luminance_weights[c] * channels[c].wave(per_mm, direction);
@@ -86,13 +88,14 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
     const Bars plane = bars_across(direction, s.geometry().vertex_plane_mm + depth_mm);
     using PixelPositions = SeenThroughLenses::PixelPositions;
     const LineSpread spread = seen.luminance.spread(plane.z_mm, direction, PixelPositions::as_described);
-    // Seen from the side the plane is foreshortened, most along x.
+    // Seen from the side the plane is foreshortened, most along x; an eye on axis sees (z_eye - z) pi/180 mm in a degree.
     const double aside = direction.x * std::sin(angle_deg * degree), foreshortened = std::sqrt(1 - aside * aside);
     MtfCurves m{};
     m.depth_mm = depth_mm, m.angle_deg = angle_deg, m.direction = direction;
     m.mm_per_deg = (eye.z_mm() - plane.z_mm) / std::cos(angle_deg * degree) * degree / foreshortened;
     m.astray = light_astray(s, angle_deg, eye.distance_mm);
     m.spread_mm = spread.width_mm(0.95);
+    // Reasons to give no figure
     if (at_the_lenses(s.display(), s.geometry(), plane.z_mm))
         m.missing = "in the lenses' own plane each lens shows only one point of it";
     else if (!(m.spread_mm > 0))
@@ -100,7 +103,8 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
     else if (spread.width_mm(1 - most_lost) > 2 * seen_half_mm(s.display(), s.geometry(), plane, eye)[0])
         m.missing = "the light is spread over more of that plane than the screen shows";
 
-    // Frequencies reach to the first zero of a pixel's image or, where the blur is far wider, to where the MTF is negligible.
+    // Frequencies reach to the first zero of a pixel's image or, if the blur is far wider, to 4 over its width, where the MTF is
+    // negligible.
     const Blur by_theory = blur(s.display(), s.geometry(), s.theory(), plane.z_mm, angle_deg);
     const double width = m.spread_mm > 0 ? m.spread_mm : by_theory.width_mm(direction);
     std::vector<ChannelBlur> blurs;
@@ -109,7 +113,8 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
     for (const ChannelBlur& channel : blurs) finest = std::min(finest, channel.narrowest_mm(direction));
     double step = 1 / std::max(finest, 0.25 * width) / steps;
     if (m.missing.empty()) {
-        // A narrow core within a wide halo keeps its modulation longer. A channel may have one where luminance has none.
+        // A narrow core within a wide halo keeps its modulation longer, and a channel may have one where luminance has none:
+        // frequencies are doubled until all curves fall below one half.
         std::vector<LineSpread> spreads{spread};
         for (const SeenThroughLenses& channel : seen.channels)
             spreads.push_back(channel.spread(plane.z_mm, direction, PixelPositions::as_described));

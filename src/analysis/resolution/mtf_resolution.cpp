@@ -17,7 +17,8 @@ Resolution resolution(const Subject& s, const MtfCurves& m) {
         r.missing = m.missing;
         if (at_the_lenses(s.display(), g, z)) r.theory_per_mm = nan;
     } else {
-        // A curve that never falls below one half as far as was measured does not do so below the limit.
+        // A curve that does not fall below one half within the frequencies measured does not do so below the limit: the limit is
+        // then the resolution, and its error reaches to where the curve less its error does.
         const LimitingFrequency mtf50 = m.below(0.5);
         const bool limited = !(mtf50.found.value < limit);
         r.per_mm = limited ? Estimate{limit, mtf50.least < limit ? limit - mtf50.least : 0} : mtf50.found;

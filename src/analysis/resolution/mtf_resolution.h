@@ -1,4 +1,4 @@
-// Resolution in a plane: the least of MTF50 and the sampling limits there. Floor 3.
+// Resolution in a plane: the lowest of MTF50 and the sampling limits there. Floor 3.
 #pragma once
 #include "analysis/resolution/mtf_curves.h"
 
@@ -6,15 +6,17 @@
 
 namespace lfdsim {
 
+/// The resolution in a plane and its limits, cycles per mm there.
 struct Resolution {
-    double lens_limit_per_mm;   // half a cycle per lens pitch, as the eye projects it into the plane
+    double lens_limit_per_mm;   // half a cycle per lens pitch, projected by the eye into the plane
     double pixel_limit_per_mm;  // half a cycle per image of a panel pixel; infinite in the lenses' own plane
-    Estimate per_mm;            // NaN where it is undefined, and `missing` says why
-    const char* limited_by;     // "mtf50", "lens sampling" or "pixel image"; empty where it is undefined
+    Estimate per_mm;            // NaN: it is undefined, and `missing` says why
+    const char* limited_by;     // "mtf50", "lens sampling" or "pixel image"; empty if it is undefined
     std::string missing;
-    double theory_per_mm;  // the same of theory's MTF50
+    double theory_per_mm;  // resolution with theory's MTF50
 };
 
+/// Returns the resolution by curves of lines of sight.
 Resolution resolution(const Subject&, const MtfCurves&);
 
 }  // namespace lfdsim

@@ -11,21 +11,23 @@ namespace lfdsim {
 namespace {
 
 constexpr double bins_per_pixel = 4;
-constexpr double flat_share = 0.75;  // of the reach: farther out the window falls to 0
+constexpr double flat_share = 0.75;  // of the reach; beyond it the window falls to 0
 
+/// Returns the cosine of the edges' slant, by which distances along a row become distances across the edge.
 double cosine(const Edges& e) { return 1 / std::sqrt(1 + e.slope * e.slope); }
 
-/// The pixels of a row whose centres are within the reach of an edge that crosses the row's middle at `x`.
+/// A range of columns, `to` not included.
 struct PixelSpan {
     int from, to;
 };
+/// Returns the pixels of a row whose centres are within the reach of an edge that crosses the row's middle at `x`.
 PixelSpan reached(const Edges& e, double x, int width) {
     const double half = e.reach / cosine(e);
     const auto pixel = [&](double at) { return int(std::ceil(std::clamp(at - 0.5, 0., double(width)))); };
     return {pixel(x - half), pixel(x + half)};
 }
 
-/// Fills bins that no light fell into from their neighbours. False: there is none at all.
+/// Interpolates bins without light (NaN) from their neighbours. Returns whether there is any light.
 bool bridge(std::vector<double>& values) {
     const auto known = [](double v) { return !std::isnan(v); };
     const auto first = std::find_if(values.begin(), values.end(), known);
@@ -51,6 +53,7 @@ EdgeSpread::EdgeSpread(double reach) : reach_(reach) {
 void EdgeSpread::add(const Edges& edges, const Image& picture, const Image& white) {
     const double scale = cosine(edges) * bins_per_pixel, middle = 0.5 * double(sets_[0].size());
     for (int row = 0; row < picture.height; ++row) {
+        // Each half of a picture belongs to one set.
         std::vector<Bin>& bins = sets_[std::size_t((2 * pictures_ + (2 * row >= picture.height)) % independent_sets)];
         for (const Edges::EdgeLine& line : edges.lines) {
             const double x = line.at + edges.slope * (row + 0.5);
@@ -87,10 +90,11 @@ std::array<std::vector<double>, 3> EdgeSpread::mtf(std::span<const double> frequ
             result[c].assign(frequencies.size(), nan);
             continue;
         }
-        // Where as much light is missing on its right as there is on its left: the middle of the window.
+        // The window is centred where as much light is missing on the right as there is on the left.
         double middle = 0.5 * double(bins);
         for (const double light : spread) middle -= light;
         middle = std::clamp(middle / bins_per_pixel, -0.5 * reach_, 0.5 * reach_);
+        // The derivative of the edge spread function, under a window that is flat and falls to 0 as a cosine
         std::vector<double> places;  // pixels from the edge
         for (std::size_t k = 0; k + 1 < bins; ++k) {
             const double d = (double(k + 1) - 0.5 * double(bins)) / bins_per_pixel;
@@ -105,7 +109,7 @@ std::array<std::vector<double>, 3> EdgeSpread::mtf(std::span<const double> frequ
                 real += line[k] * std::cos(2 * pi * f * places[k]);
                 imaginary += line[k] * std::sin(2 * pi * f * places[k]);
             }
-            const double bin = sinc(f / bins_per_pixel);  // once for the bin's width, once for the difference of two
+            const double bin = sinc(f / bins_per_pixel);  // once for the bin's width, once for the difference of two bins
             result[c].push_back(std::hypot(real, imaginary) / (bin * bin));
         }
     }

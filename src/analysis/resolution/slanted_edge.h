@@ -1,8 +1,9 @@
-// From pictures of slanted edges to the modulation transfer function, after ISO 12233. Floor 3.
+// The modulation transfer function from pictures of slanted edges, after ISO 12233. Floor 3.
 //
-// Levels are known here: black is 0, and a second picture shows what white would be at each pixel. So gaps between lenses, uneven
-// light and the like drop out, and nothing is normalised: light that strays farther than the edge's reach counts as lost contrast.
-// The edges' direction is known, too. A line fitted to the picture would follow the facets in which a lens array shows an edge.
+// Levels are known here: black is 0, and a second picture shows what white would be at each pixel. So gaps between lenses and
+// uneven light drop out, and nothing is normalised: light that strays farther than the edge's reach counts as lost contrast. The
+// edges' direction is known, too: a line fitted to the picture would follow the facets in which a lens array shows an edge.
+// docs/measures.md, "Resolution", edges.
 #pragma once
 #include "analysis/core/estimate.h"
 #include "analysis/resolution/fourier.h"
@@ -16,34 +17,37 @@
 
 namespace lfdsim {
 
-/// Parallel edges, nearly upright, that cross a picture from its first row to its last. In pixels from its upper left corner.
+/// Parallel, nearly upright edges that cross a picture from its first row to its last. Positions in pixels from its upper left
+/// corner.
 struct Edges {
     /// An edge of a picture: a straight line between black and white.
     struct EdgeLine {
-        double at;    // where it meets row 0
+        double at;    // column at which it meets row 0
         bool rising;  // bright on its right
     };
     std::vector<EdgeLine> lines;
-    double slope = 0;  // columns a row
-    double reach = 0;  // how far on each side, across the edge, pixels belong to this edge; at least 1
+    double slope = 0;  // columns per row
+    double reach = 0;  // distance to either side, across the edge, within which pixels belong to it; at least 1
 };
 
-/// The edge spread function: light as a share of white's against the distance to the right of the edge, in bins of a quarter pixel;
-/// the mean of all edges of all pictures that are added. A falling edge counts by its difference from white, so that all have the
-/// same direction. The upper and lower halves of pictures are assigned in turn to `independent_sets` sets.
+/// The edge spread function: light as a share of white's over the distance to the right of the edge, in bins of a quarter pixel,
+/// from all edges of all pictures that are added. A falling edge counts by its difference from white, so that all edges rise. The
+/// upper and lower halves of pictures are assigned in turn to `independent_sets` sets.
 class EdgeSpread {
   public:
-    /// The reach of all edges that are added.
+    /// `reach`: that of all edges that are added, pixels.
     explicit EdgeSpread(double reach);
-    /// Pictures of one size. Parts of edges outside the picture are ignored.
+    /// Adds the edges of a picture; `white` shows white instead of the edges, in a picture of the same size. Parts of edges
+    /// outside the picture are ignored.
     void add(const Edges&, const Image& picture, const Image& white);
 
-    /// The MTF of red, green and blue at frequencies in cycles a pixel, 0 to 1: the modulus of the Fourier transform of the
-    /// spread function's derivative, corrected for the attenuation by the bins and by the differences between them. NaN where
-    /// there is no light. Of all sets but the one numbered `without`.
+    /// Returns the MTF of red, green and blue at frequencies in cycles per pixel, 0 to 1: the modulus of the Fourier transform of
+    /// the edge spread function's derivative, over sinc^2(f/4) for bins and differences. NaN if there is no light. `without`: the
+    /// set that is left out; -1: none.
     std::array<std::vector<double>, 3> mtf(std::span<const double> frequencies, int without = -1) const;
 
   private:
+    /// The light of a bin, red, green and blue, and that of white.
     struct Bin {
         std::array<double, 3> light{}, white{};
     };
@@ -52,7 +56,8 @@ class EdgeSpread {
     int pictures_ = 0;
 };
 
-/// The frequency at which a curve over rising frequencies first falls below a level; NaN if it never does.
+/// Returns the frequency at which a curve over ascending frequencies first falls below a level, by linear interpolation; NaN if
+/// it never does.
 double falls_below(std::span<const double> frequencies, std::span<const double> curve, double level);
 
 }  // namespace lfdsim
