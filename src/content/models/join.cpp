@@ -16,7 +16,8 @@ namespace {
 
 std::string key_of(std::size_t object, const char* key) { return fmt::format("content.object.{}.{}", object, key); }
 
-// A file that many objects show is read once, but its mesh is there for each. Flat triangles have vertices of their own.
+// Refuses scenes with 2^31 triangles or vertices or more. A file that several objects show is read once, but its mesh is there for
+// each; flat triangles have separate vertices.
 void check_size(const ContentParts& parts, const std::vector<SceneObject>& objects) {
     double vertices = 0, triangles = 0;
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -30,7 +31,7 @@ void check_size(const ContentParts& parts, const std::vector<SceneObject>& objec
                                                        triangles, vertices));
 }
 
-// Adds one object after the other.
+// Joins one object after the other.
 class Joining {
   public:
     explicit Joining(double middle_z_mm) : middle_z_mm_(middle_z_mm) {}
@@ -49,6 +50,7 @@ class Joining {
     std::shared_ptr<const Model> model() { return std::make_shared<Model>(std::move(all_)); }
 
   private:
+    // Adds triangles, texture coordinates and vertex colours. Vertices without colour are white once some object has colours.
     void add_surfaces(const Model& from, const SceneObject& object) {
         const auto vertex = std::uint32_t(all_.vertices()), material = std::uint32_t(all_.materials.size());
         for (const std::uint32_t i : from.indices) all_.indices.push_back(vertex + i);
@@ -77,6 +79,7 @@ class Joining {
         }
     }
 
+    // Adds rotated, scaled and moved vertices: k (R p - m) + position, m the middle of the rotated box.
     void add_vertices(const Model& from, const SceneObject& object, std::size_t number) {
         const Turn turn(object.roll_deg, object.tilt_deg, object.yaw_deg);
         PointBounds box, turned;
@@ -100,7 +103,7 @@ class Joining {
         }
     }
 
-    // Millimetres for each of the file's units.
+    // Returns k, mm per unit of the file. A model's height or width is that of its rotated box, an image's that before rotation.
     static double scale_of(const SceneObject& object, const PointBounds& box, std::size_t number) {
         if (object.unit_mm) return *object.unit_mm;
         const bool by_height = object.height_mm.has_value();

@@ -1,3 +1,5 @@
+// Models and pictures read by the reader process, and checked.
+
 #include "content/content.h"
 #include "content/models/model.h"
 #include "content/models/reader_process.h"
@@ -17,7 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The file may have corrupted the reader before it wrote: nothing that it sent is trusted.
+// Returns what is wrong with a model, or null. The file may have corrupted the reader before it wrote: nothing that it sent is
+// trusted.
 const char* fault(const Model& m) {
     const auto finite = [](const std::vector<float>& list) {
         return std::all_of(list.begin(), list.end(), [](float x) { return std::isfinite(x); });
@@ -52,6 +55,7 @@ const char* fault(const Model& m) {
     return nullptr;
 }
 
+// Throws InputError if a file cannot be read.
 void check_file(const fs::path& path, const std::string& what) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
@@ -69,7 +73,7 @@ void check_limits(const LoadOptions& options) {
     if (options.bytes < 1) throw InputError("bytes", fmt::format("{} given; allowed is 1 or more", options.bytes));
 }
 
-/// `what`: "model" or "picture".
+/// Reads a file in a reader process; `what`: "model" or "picture". Throws InputError with the reason if it cannot be read.
 std::shared_ptr<const Model> load(const std::string& what, const fs::path& path, const LoadOptions& options) {
     check_file(path, what);
     ReaderProcess reader(what, path, options);

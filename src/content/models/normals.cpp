@@ -19,7 +19,7 @@ Corners corners_of(const Model& m, std::size_t triangle) {
     return all;
 }
 
-// (0, 0, 0) of a vector too short to have a direction.
+// Returns the unit vector along v; (0, 0, 0) if v is too short or too long to have a direction.
 Vec3d unit_or_zero(const Vec3d& v) {
     const double size = length(v);
     return size > 0 && std::isfinite(size) ? times(1 / size, v) : Vec3d{};
@@ -27,6 +27,7 @@ Vec3d unit_or_zero(const Vec3d& v) {
 
 Vec3d face_normal(const Corners& p) { return unit_or_zero(cross(minus(p[1], p[0]), minus(p[2], p[0]))); }
 
+// Returns the triangle's angle at corner k, radians.
 double angle_at(const Corners& p, std::size_t k) {
     const Vec3d a = unit_or_zero(minus(p[(k + 1) % 3], p[k])), b = unit_or_zero(minus(p[(k + 2) % 3], p[k]));
     return std::acos(std::clamp(dot(a, b), -1., 1.));

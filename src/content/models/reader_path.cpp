@@ -11,8 +11,8 @@ namespace lfdsim {
 namespace fs = std::filesystem;
 namespace {
 
-/// The path of the shared library or program that holds this function; empty where it is known by a relative name, which says
-/// nothing.
+/// Returns the folder of the shared library or program that contains this function; empty if it is known by a relative name,
+/// which may mean any folder.
 fs::path own_folder() {
     Dl_info own{};
     if (dladdr(reinterpret_cast<void*>(&reader_path), &own) == 0 || !own.dli_fname) return {};

@@ -38,6 +38,7 @@ ReaderProcess::ReaderProcess(const std::string& what, const std::filesystem::pat
     const std::string file = std::filesystem::canonical(path).string();
     const char* arguments[] = {program.c_str(), what.c_str(),       file.c_str(), bytes.c_str(),
                                seconds.c_str(), options.up.c_str(), nullptr};
+    // The reader gets the pipe as standard output, and nothing else: no input, and no messages of libraries.
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe to the model reader");
     pipe_ = ends[0];
@@ -74,6 +75,7 @@ void ReaderProcess::get(char* to, std::size_t bytes) {
         pollfd ready{pipe_, POLLIN, 0};
         if (wait <= 0) throw Failure(timeout_text(options_.seconds));
         if (options_.job && options_.job->cancelled()) throw Failure("it was stopped");
+        // 100 ms at most, so that cancelling takes effect
         if (poll(&ready, 1, int(std::min<std::int64_t>(wait, 100))) <= 0) continue;
         const ssize_t got = read(pipe_, to, bytes);
         if (got < 0 && errno == EINTR) continue;
@@ -90,7 +92,8 @@ std::size_t ReaderProcess::count(std::size_t size) {
     return n;
 }
 
-// The pipe closed early: the reader's exit status gives the reason.
+// The pipe has ended early: the reader's exit status gives the reason. The reader limits its processor time, in proportion to the
+// file's size, so that it may be ended before the time limit of the options.
 void ReaderProcess::fail() {
     int status = 0;
     rusage used{};
@@ -107,7 +110,7 @@ void ReaderProcess::fail() {
                         seconds));
     }
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw Failure("the reader was killed; perhaps memory ran out");
-    // As sanitizers report a crash: by a status.
+    // Sanitizers report a crash by an exit status.
     const std::string how = WIFSIGNALED(status)                             ? strsignal(WTERMSIG(status))
                             : WIFEXITED(status) && WEXITSTATUS(status) != 0 ? fmt::format("status {}", WEXITSTATUS(status))
                                                                             : "";

@@ -1,4 +1,4 @@
-// The model reader as a process of its own, with the pipe it writes to.
+// The model reader as a child process, and the pipe to which it writes.
 #pragma once
 #include "content/content.h"
 
@@ -8,17 +8,18 @@
 
 namespace lfdsim {
 
-/// Starts the reader on construction; an Io for transfer() that takes bytes until the time or the byte limit is spent.
+/// A reader process, started by the constructor: an Io for transfer() that receives bytes until the time or the byte limit is
+/// spent. value(), array() and list() throw Failure.
 class ReaderProcess {
   public:
-    /// The reader crashed, ran out of time or memory, or sent something impossible.
+    /// Thrown if the reader crashed, ran out of time or memory, or sent something impossible; what() is for the user.
     struct Failure : std::runtime_error {
         using std::runtime_error::runtime_error;
     };
 
-    /// `what`: "model" or "picture". Throws std::runtime_error if the reader program is missing or cannot start.
+    /// `what`: "model" or "picture". Throws std::runtime_error if the reader program is missing or cannot be started.
     ReaderProcess(const std::string& what, const std::filesystem::path&, const LoadOptions&);
-    ~ReaderProcess();  // ends the reader if it still runs
+    ~ReaderProcess();  // kills the reader if it still runs
     ReaderProcess(const ReaderProcess&) = delete;
 
     template <class T>
@@ -29,7 +30,7 @@ class ReaderProcess {
     void array(Vector& v) {
         constexpr std::size_t size = sizeof(typename Vector::value_type), step = (std::size_t(4) << 20) / size;
         std::size_t left = count(size);
-        while (left > 0) {  // grows as bytes arrive, so that a false count allocates little
+        while (left > 0) {  // the list grows as bytes arrive, so that a false count allocates little
             const std::size_t old = v.size(), more = std::min(left, std::max(step, old));
             v.resize(old + more);
             get(reinterpret_cast<char*>(v.data() + old), more * size);
@@ -42,18 +43,20 @@ class ReaderProcess {
     }
 
   private:
+    /// Reads bytes. Throws Failure after the deadline, beyond the byte limit, if cancelled, and at the pipe's end.
     void get(char* to, std::size_t bytes);
+    /// Reads the number of elements of a list, each of at least `size` bytes. Throws Failure if they would exceed the byte limit.
     std::size_t count(std::size_t size);
     [[noreturn]] void fail();
 
     LoadOptions options_;
     std::chrono::steady_clock::time_point deadline_;
-    std::int64_t left_;  // bytes
+    std::int64_t left_;  // bytes that may still arrive
     int pipe_ = -1;
     pid_t process_ = -1;
 };
 
-/// Why a file is refused that needs more memory than it may have.
+/// Returns why a file is refused that needs more memory than the limit.
 std::string too_large_text(const LoadOptions&);
 
 }  // namespace lfdsim

@@ -1,4 +1,4 @@
-// The model that is built in, so that a display can be looked at and measured without a mesh file: five chequered spheres at five
+// The built-in model, with which a display can be looked at and measured without a mesh file: five chequered spheres at five
 // depths, whose squares show where a picture is blurred or repeated.
 #include "base/constants.h"
 #include "content/content.h"
@@ -10,6 +10,7 @@
 namespace lfdsim {
 namespace {
 
+/// A sphere of the model, in its units.
 struct Sphere {
     std::array<float, 3> middle;
     float radius;
@@ -23,6 +24,7 @@ constexpr Sphere spheres[] = {
     {{-0.62f, -0.62f, -0.31f}, 0.38f, {70, 150, 240}, {10, 30, 70}},
     {{0.62f, -0.62f, 0.62f}, 0.38f, {80, 200, 110}, {10, 50, 20}},
 };
+// Squares around and from pole to pole; texels along a square
 constexpr int squares_round = 16, squares_up = 8, square_texels = 16;
 constexpr int steps_round = 128, steps_up = 64;  // of the mesh
 
@@ -36,6 +38,7 @@ Texture chequered(const Sphere& s) {
     return t;
 }
 
+/// Adds a sphere as a mesh of latitudes and longitudes.
 void add(Model& m, const Sphere& s) {
     const auto first = std::uint32_t(m.vertices()), material = std::uint32_t(m.materials.size());
     for (int j = 0; j <= steps_up; ++j)
@@ -52,7 +55,7 @@ void add(Model& m, const Sphere& s) {
     const auto vertex = [&](int i, int j) { return first + std::uint32_t(j * (steps_round + 1) + i); };
     for (int j = 0; j < steps_up; ++j)
         for (int i = 0; i < steps_round; ++i) {
-            // counter-clockwise from outside; those at the poles that have no area are left out
+            // Triangles are counter-clockwise from outside; those at the poles that have no area are left out.
             if (j > 0) m.indices.insert(m.indices.end(), {vertex(i, j), vertex(i + 1, j + 1), vertex(i + 1, j)});
             if (j + 1 < steps_up) m.indices.insert(m.indices.end(), {vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
         }

@@ -15,6 +15,7 @@ Texel mix(Texel a, Texel b, float t) { return a + (b - a) * t; }
 
 float alpha_of(std::uint32_t code) { return float(code >> 24) / 255; }
 
+// Returns the texel index that an index beyond the border means.
 int wrapped(int i, int size, Wrap how) {
     if (unsigned(i) < unsigned(size)) return i;
     switch (how) {
@@ -29,7 +30,7 @@ int wrapped(int i, int size, Wrap how) {
     }
 }
 
-// Folded into a few periods first, so that huge coordinates of odd files stay precise enough and fit an int.
+// Folds a coordinate into a few periods, so that huge coordinates stay precise enough and fit an int.
 float folded(float x, Wrap how) {
     if (x >= 0 && x < 1) return x;
     if (how == Wrap::clamp) return std::max(-1.f, std::min(2.f, x));
@@ -57,7 +58,8 @@ MipMap::MipMap(const Texture& t, bool with_alpha) : with_alpha_(with_alpha), lig
         Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
         coarse.codes.resize(std::size_t(coarse.width) * coarse.height);
         for (int y = 0; y < coarse.height; ++y) {
-            Image mean(coarse.width, 1);  // of the light, weighted by alpha: what is clear has no colour
+            // The mean of the light is weighted by alpha, since transparent texels have no colour.
+            Image mean(coarse.width, 1);
             std::vector<float> alpha(std::size_t(coarse.width));
             for (int x = 0; x < coarse.width; ++x) {
                 float& whole = alpha[std::size_t(x)];
@@ -79,7 +81,7 @@ MipMap::MipMap(const Texture& t, bool with_alpha) : with_alpha_(with_alpha), lig
         levels_.push_back(std::move(coarse));
     }
     for (const Level& l : levels_) sizes_.insert(sizes_.end(), {float(l.width), float(l.height)});
-    sizes_.insert(sizes_.end(), {1, 1});  // sample() looks one level further
+    sizes_.insert(sizes_.end(), {1, 1});  // sample() reads the next level's size, too
 }
 
 Texel MipMap::bilinear(const Level& l, int x0, int y0, int x1, int y1, float right, float down) const {
@@ -94,8 +96,8 @@ Texel MipMap::bilinear(const Level& l, int x0, int y0, int x1, int y1, float rig
 Texel MipMap::sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const {
     const float l = std::clamp(level, 0.f, float(levels_.size() - 1));
     const auto below = std::size_t(l);
-    // Four numbers: across and down in the finer level, across and down in the coarser one. Texel centres lie at half integers, row
-    // 0 at the top where v = 1.
+    // Four positions are computed at once: across and down in the finer level, across and down in the coarser one. Texel centres
+    // lie at half integers, and row 0 is at the top, where v = 1.
     const float x = folded(u, wrap_u), y = folded(1 - v, wrap_v);
     const Four size = optics::load<Four>(&sizes_[2 * below]), place = Four(Texel{x, y, x, y}) * size - Four(0.5f);
     const Four first = optics::floor(place), between = place - first;
@@ -105,6 +107,7 @@ Texel MipMap::sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) co
         low[k] = int(a[k]);
         high[k] = int(b[k]);
     }
+    // Only positions at the border need wrapping.
     if (optics::any(!(first >= Four(0.f) && first + Four(1.f) < size))) {
         for (int k = 0; k < 4; ++k) {
             const Wrap how = k % 2 ? wrap_v : wrap_u;

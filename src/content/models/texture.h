@@ -7,16 +7,17 @@
 
 namespace lfdsim {
 
-/// Linear light in one register: red, green, blue, and 0, or of textures with alpha that; red, green and blue are then times alpha.
+/// Linear light in one register: red, green, blue and 0; of textures with alpha red, green and blue times alpha, and alpha.
 typedef float Texel __attribute__((vector_size(16)));
 
 /// A mip pyramid: each level halves the one below by averaging 2 x 2 texels in linear light.
 class MipMap {
   public:
-    /// Opaque, unless its alpha is wanted.
+    /// Without alpha the texture is opaque.
     MipMap(const Texture&, bool with_alpha);
 
-    /// Trilinear: bilinear in the two levels nearest to `level` (0: full size; larger is clamped), blended.
+    /// Returns the light at (u, v), trilinear: bilinear in the two levels nearest to `level` (0: full size; larger ones are
+    /// clamped), blended. `level` is the base 2 logarithm of the filter's width in texels.
     Texel sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const;
 
     int width() const { return levels_[0].width; }
@@ -32,8 +33,8 @@ class MipMap {
 
     bool with_alpha_;
     std::vector<Level> levels_;
-    std::vector<float> sizes_;  // width and height of each level
-    const float* light_;        // of each code
+    std::vector<float> sizes_;  // width and height of each level, and 1, 1
+    const float* light_;        // linear light of each code
 };
 
 }  // namespace lfdsim

@@ -1,5 +1,6 @@
-// How a model is sent from the reader process: one description of the bytes, used by writer and reader alike. Both run on the same
-// machine, so native byte order. The receiver trusts nothing that it is sent, as the sender may have been corrupted by its input.
+// The bytes in which a model is sent from the reader process: one description for sender and receiver. Both run on the same
+// machine, so numbers are in its byte order. The receiver trusts nothing that it receives, since a file may have corrupted the
+// sender.
 #pragma once
 #include "content/models/model.h"
 
@@ -7,10 +8,11 @@
 
 namespace lfdsim {
 
-enum class Reply : std::uint32_t { model = 0x4c6d6f31, refusal, out_of_memory };  // first; after a refusal a text says why
+/// The first number that is sent. After a model the model follows, after a refusal a text that says why.
+enum class Reply : std::uint32_t { model = 0x4c6d6f31, refusal, out_of_memory };
 
-/// Io has value(x) for plain values, array(v) for vectors and strings of them, list(v, each) for vectors of anything else. A
-/// count precedes each; the receiver refuses counts beyond its limits.
+/// Sends or receives a model. Io has value(x) for plain values, array(v) for vectors and strings of these, list(v, each) for
+/// vectors of anything else. Each list is preceded by its count; the receiver refuses counts beyond its limits.
 template <class Io>
 void transfer(Io& io, Model& model) {
     io.array(model.positions);
