@@ -1,3 +1,5 @@
+// Elemental images of scenes and of views: rays from panel pixels by the display's pick-up.
+
 #include "content/pickup/lens_mapping.h"
 #include "content/pickup/pickup.h"
 #include "content/pickup/shown_points.h"
@@ -11,16 +13,16 @@
 namespace lfdsim {
 namespace {
 
-/// Whether the colours of a pixel have rays of their own.
+/// Returns whether the colours of a pixel have different rays.
 bool by_channel(const Display& d) { return made_by_channel(d) || (d.content.pickup != PickupKind::nodal && disperses(d)); }
 
-/// The rays of the pick-up, a block at a time: of each pixel those of its red, then of green and blue, where they differ. They
-/// must hit the surface that the viewer sees first along the line: they start in the plane z = top, just above the scene on the
+/// The rays of the pick-up, a block at a time: of each pixel those of its red, then of green and blue if they differ. They must
+/// hit the surface that the viewer sees first along the line: so they start in the plane z = top, just above the scene on the
 /// viewer's side, and travel towards the panel and beyond it. Their direction has dz = -1, so that t is the depth below the
 /// plane.
 class PickupRays {
   public:
-    /// Serves content in the box with this middle and half these extents, mm.
+    /// Rays of content in the box with this centre and half extents, mm.
     PickupRays(const Display& display, const Geometry& geometry, const Vec3d& centre_mm, const Vec3d& half_mm,
                const std::vector<LensMapping>& mappings)
         : pickup_(display, geometry),
@@ -38,8 +40,11 @@ class PickupRays {
     /// Returns the number of rays for each pixel, or for each channel of it.
     static int rays_of(const Display& d) { return d.content.pickup == PickupKind::integrated ? int(d.content.pickup_rays) : 1; }
 
+    /// Returns the rays' width: a panel pixel, projected through the lens, is a/g wide per mm from the lens; N rays of a pixel
+    /// share it.
     Beam beam() const { return {width_per_t_, float(rise_)}; }
 
+    /// Sets the rays of the block at (column, row) for block.sample.
     void operator()(int column, int row, RayBlock& block) const {
         RTCRay16& ray = block.packet.ray;
         for (int k = 0; k < RayBlock::lanes; ++k) {
@@ -57,11 +62,11 @@ class PickupRays {
     }
 
   private:
-    struct RayCoordinate {  // a ray's x or its y
+    struct RayCoordinate {  // a ray's x or y
         float origin, direction;
-        bool may_hit;  // it may enter the scene's box before its end, behind the scene
+        bool may_hit;  // it may enter the scene's box, as seen along this axis
     };
-    /// What all columns, or all rows, contribute to rays.
+    /// What all columns, or all rows, contribute to rays, where x depends on the column only and y on the row.
     struct Shares {
         std::vector<float> origin, direction;
         std::vector<int> exists, may_hit;  // -1 or 0
@@ -78,19 +83,19 @@ class PickupRays {
         }
     };
 
-    /// What the rays of all pixels for one sample have in common.
+    /// What the rays of all pixels for one sample of the block have in common.
     struct RaySet {
         ShownPoints points;
-        const LensMapping* mapping;  // none: nodal lines
-        int ray;                     // of the mapping; -1: its mean
-        bool common, everywhere;     // x depends on the column alone and y on the row; all pixels have a point
-        Shares columns, rows;        // where they do
+        const LensMapping* mapping;  // null: nodal lines
+        int ray;                     // number in the mapping; -1: the line on which most light travels
+        bool common, everywhere;     // x depends on the column only and y on the row; all pixels have a point
+        Shares columns, rows;        // if `common`
     };
 
     RaySet set_of(const Display& display, const std::vector<LensMapping>& mappings, int channel, int ray) const {
         const LensMapping* const mapping = mappings.empty() ? nullptr : &mappings[mappings.size() > 1 ? std::size_t(channel) : 0];
         const bool one_of_many = display.content.pickup == PickupKind::integrated && !mapping->places().empty();
-        // Where the aperture is so odd that fewer rays than asked for were found in it, they serve again.
+        // If fewer rays than requested were found in a small aperture, they serve several times.
         const int of_mapping = one_of_many ? ray % int(mapping->places().size()) : -1;
         std::optional<ShownPoints::Point> place;
         if (one_of_many) place = {mapping->places()[std::size_t(of_mapping)][0], mapping->places()[std::size_t(of_mapping)][1]};
@@ -98,7 +103,7 @@ class PickupRays {
         const std::optional<ShownPoints::Point> shown = points.common();
         RaySet rays{points, mapping, of_mapping, !apart_ && shown, points.everywhere(), {}, {}};
         if (!rays.common) return rays;
-        // (x, y): the middle of the array, where a lens owns the panel.
+        // Columns are computed for a row, and rows for a column, through the middle of the array, where a lens owns the panel.
         const double x = pickup_.lattice().offset[0] * pickup_.scale, y = pickup_.lattice().offset[1] * pickup_.scale;
         for (std::int64_t i = 0; i < display.panel.pixels[0]; ++i) {
             const NodalLine line = pickup_.line(pickup_.x_mm(double(i) + (*shown)[0]), y);
@@ -115,10 +120,11 @@ class PickupRays {
         return rays;
     }
 
-    /// Half the scene's box. The slack covers the rounding of positions (about 1e-7 of the box) and of the arithmetic with
-    /// rays.
+    /// Returns half the scene's box along an axis. The slack covers the rounding of positions (about 1e-7 of the box) and of the
+    /// rays' arithmetic.
     float reach(std::size_t k) const { return float(half_mm_[k] * 1.0001 + 1e-6); }
 
+    /// Returns a ray's coordinate: the line is at axis + slope rise in the first plane, and ends 2 half_depth further down.
     RayCoordinate part(double axis, double slope, std::size_t k) const {
         const float origin = float(axis + slope * rise_ - centre_mm_[k]), direction = float(-slope),
                     end = origin + float(2 * half_depth_) * direction;
@@ -126,7 +132,7 @@ class PickupRays {
         return {origin, direction, std::min(origin, end) <= h && std::max(origin, end) >= -h};
     }
 
-    /// Where the array is not turned against the panel, x depends on the column alone and y on the row.
+    /// Sets a block's rays from the shares of its columns and rows, in a loop without branches.
     static void by_column_and_row(const RaySet& of, int column, int row, RayBlock& block) {
         constexpr int side = RayBlock::side;
         RTCRay16& ray = block.packet.ray;
@@ -147,7 +153,7 @@ class PickupRays {
         }
     }
 
-    /// Shifts the lines of a block.
+    /// Shifts a block's nodal lines by the mapping's table, and tests anew which may hit.
     void shift(const RaySet& of, int column, int row, RayBlock& block) const {
         RTCRay16& ray = block.packet.ray;
         const float rise = float(rise_), depth = float(2 * half_depth_), half_x = reach(0), half_y = reach(1);
@@ -170,6 +176,7 @@ class PickupRays {
                                                          int(enters(ray.org_y[k], ray.org_y[k] + depth * ray.dir_y[k], half_y)));
     }
 
+    /// Returns the line of a panel point, shifted by the mapping if there is one.
     NodalLine line(const RaySet& set, double x, double y) const {
         if (!set.mapping) return pickup_.line(x, y);
         return pickup_.line(x, y, [&](double ux, double uy, Pickup::Shift& out) {
@@ -180,6 +187,7 @@ class PickupRays {
         });
     }
 
+    /// Sets a block's rays one by one, for arrays whose columns and rows have nothing in common.
     void each_alone(const RaySet& set, int column, int row, RayBlock& block) const {
         RTCRay16& ray = block.packet.ray;
         for (int k = 0; k < RayBlock::lanes; ++k) {
@@ -198,15 +206,16 @@ class PickupRays {
     }
 
     Pickup pickup_;
-    bool apart_;                 // no row or column has anything in common
+    bool apart_;                 // pixels of a row or column have nothing in common
     Vec3d half_mm_, centre_mm_;  // of the scene's box
-    double half_depth_, rise_;   // rise: of the rays' first plane over the rear nodal points
+    double half_depth_, rise_;   // half_depth_: of the scene's box; rise_: height of the rays' first plane over H'
     int rays_;
     float width_per_t_;
-    std::vector<RaySet> sets_;  // of each sample of a block
+    std::vector<RaySet> sets_;  // for each sample of a block
 };
 
-/// The light of views along a block's rays, which start at the height `waist_z_mm - beam.waist_t` over the focus.
+/// The light of views along a block's rays. Heights z over the focus: rays start at org_z, and are narrowest at org_z -
+/// beam.waist_t.
 struct FieldLight {
     const LightField& field;
     Beam beam;
@@ -221,6 +230,7 @@ struct FieldLight {
         for (int k = 0; k < RayBlock::lanes; ++k) {
             block.hit.of[k] = 0;
             if (!block.exists.of[k]) continue;
+            // The line meets the focus where z = 0, and the cameras' plane at the height `distance`.
             const float top = ray.org_z[k], x = ray.org_x[k] + top * ray.dir_x[k], y = ray.org_y[k] + top * ray.dir_y[k];
             const LightField::FieldLine line{x, y, x - distance * ray.dir_x[k], y - distance * ray.dir_y[k]};
             float light[3];
@@ -249,6 +259,7 @@ RayRequest whole_panel(const Display& display) {
 
 Picture elemental_images(const Display& display, const Geometry& geometry, const ContentScene& scene, int threads, Job& job) {
     if (display.content.pickup == PickupKind::inverse) throw std::logic_error("the inverse pick-up is that of inverse/inverse.h");
+    // Content for the display as described is that of the display without its errors.
     if (knows_no_errors(display)) {
         const Display meant = without_errors(display);
         return elemental_images(meant, resolve(meant), scene, threads, job);

@@ -14,12 +14,13 @@ namespace lfdsim {
 namespace {
 
 constexpr int nodes_per_pitch = 32, most_steps = 256;
-constexpr int aperture_rays = 4096;                            // of each panel point
-constexpr double window_pixels = 2.5, window_of_spread = 0.5;  // about the line on which most of them travel, the wider one
-constexpr double rounding = 1e-9;  // mm and slopes: what is smaller is taken for 0, so that ideal lenses keep their nodal lines
+constexpr int aperture_rays = 4096;  // of each panel point
+// Radius of the last window: the larger of that many pixels and that part of the rays' root mean square
+constexpr double window_pixels = 2.5, window_of_spread = 0.5;
+constexpr double rounding = 1e-9;  // mm and slopes: less counts as 0, so that ideal lenses keep their nodal lines exactly
 
-/// How far from a lens's axis, along the array's axes, panel points are that belong to it: half an elemental image, and what the
-/// farthest lens's image is shifted against it. Lenses whose image lies beside the panel do not count.
+/// Returns how far from a lens's axis, mm along the array's axes, panel points lie that belong to it: |P - C| <= e (half a cell)
+/// + (e - 1) |C|, with e - 1 = g/(D' - z_H'). Lenses whose image lies beside the panel do not count.
 std::array<double, 2> farthest_points(const Display& d, const Geometry& g) {
     const double away = d.content.viewing_distance_mm - g.rear_principal_mm, more = std::isinf(away) ? 0 : g.gap_mm / away;
     const auto& l = g.lattice;
@@ -34,8 +35,8 @@ std::array<double, 2> farthest_points(const Display& d, const Geometry& g) {
     return reach;
 }
 
-/// The k-th of evenly spread numbers in [0, 1)^N: an additive recurrence with the powers of the root of x^(N + 1) = x + 1
-/// (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+/// Returns the k-th of evenly spread points in [0, 1)^N: an additive recurrence with the powers of the inverse root of x^(N + 1)
+/// = x + 1 (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 template <std::size_t N>
 std::array<double, N> spread(int k) {
     constexpr double root = N == 4 ? 1.1673039782614187 : 1.324717957244746;
@@ -50,14 +51,15 @@ std::array<double, N> spread(int k) {
     return place;
 }
 
-std::array<float, 4> cubic(float t) {  // Catmull and Rom 1974
+/// Returns the weights of four neighbouring nodes for the position t from the second to the third (Catmull and Rom 1974).
+std::array<float, 4> cubic(float t) {
     const float t2 = t * t, t3 = t2 * t;
     return {0.5f * (2 * t2 - t - t3), 0.5f * (2 - 5 * t2 + 3 * t3), 0.5f * (t + 4 * t2 - 3 * t3), 0.5f * (t3 - t2)};
 }
 
 }  // namespace
 
-/// The rays of one panel point after another. `at` are points of the lens's principal planes.
+/// Traces the rays of one panel point after another. Points `at` lie in the lens's principal planes, mm.
 class LensMapping::Tracing {
   public:
     Tracing(const Display& display, const Geometry& green, double wavelength_nm, const std::array<double, 2>& reach)
@@ -73,16 +75,18 @@ class LensMapping::Tracing {
                 if (!strips_ || y == 0) see(Point{x * reach[0], y * reach[1]});
     }
 
+    /// The bounding box of the points through which rays of a panel point pass.
     struct SearchBox {
         Point from, to;
     };
+    /// The line on which most light of a panel point travels, and the rays that were transmitted.
     struct TracedAim {
         LineShift line{};
-        int rays = 0;
+        int rays = 0;     // of aperture_rays
         SearchBox box{};  // of the rays
     };
-    /// Rays through evenly spread points of the aperture, the same for all panel points. They are mirror images of one another, so
-    /// that a thin lens's lines are nodal, and stand in no rows, of which a whole one would pass the rim at once.
+    /// Traces rays through evenly spread points of the aperture, the same for all panel points. The points are mirror images of
+    /// one another, so that a thin lens's lines are nodal, and are not in rows, of which a whole one would cross the rim at once.
     TracedAim from(Point u) const {
         TracedAim found;
         std::vector<Line> lines;
@@ -113,6 +117,7 @@ class LensMapping::Tracing {
         found.line = {rounded(line[0]), rounded(line[1]), rounded(line[2]), rounded(line[3])};
         return found;
     }
+    /// Returns the line of the ray through one point of the aperture; nothing if it is blocked.
     std::optional<LineShift> one(Point u, const SearchBox& box, const RayPlace& place) const {
         const Point at{box.from[0] + place[2] * (box.to[0] - box.from[0]),
                        strips_ ? 0 : box.from[1] + place[3] * (box.to[1] - box.from[1])};
@@ -124,10 +129,11 @@ class LensMapping::Tracing {
   private:
     using Line = std::array<double, 4>;  // x, y, mx, my
 
-    /// The mean line of the rays about the place in the central depth plane where they are densest. Aberrations throw a pixel's
-    /// outer rays far aside, all to one side: their mean line is where little of its light goes. What counts for a picture is how
-    /// much arrives within a few pixels of where it is meant, or, where the rays are spread farther than that, within half of their
-    /// root mean square. Found by mean shifts (K. Fukunaga and L. Hostetler 1975) through ever narrower windows.
+    /// Returns the mean line of the rays about the position t = m + x/L in the central depth plane at which they are densest.
+    /// Aberrations throw a pixel's outer rays far to one side, so that the mean of all rays is where little of its light goes.
+    /// What counts for a picture is how much arrives within a few pixels of where it is intended, or, if the rays are spread
+    /// farther than that, within half of their root mean square. Found by mean shifts (K. Fukunaga and L. Hostetler 1975) with
+    /// weights (1 - (d/radius)^2)^2 through ever narrower windows.
     Line where_most_travel(const std::vector<Line>& lines) const {
         const auto place = [&](const Line& l) { return Point{l[2] + l[0] * vergence_, l[3] + l[1] * vergence_}; };
         Line mean{};
@@ -155,7 +161,7 @@ class LensMapping::Tracing {
                     weights += weight;
                     for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * l[k];
                 }
-                if (!(weights > 0)) return mean;  // of a ring of rays
+                if (!(weights > 0)) return mean;  // no ray is in the window, as in the middle of a ring
                 for (std::size_t k = 0; k < 4; ++k) mean[k] = sum[k] / weights;
                 if (distance2(mean, at) < 1e-6 * radius * radius) break;
             }
@@ -163,10 +169,10 @@ class LensMapping::Tracing {
         return mean;
     }
 
-    /// Widens the aperture to where the point's rays pass.
+    /// Widens the aperture to where the point's rays pass the principal planes.
     void see(Point u) {
         constexpr int across = 48;
-        constexpr double margin = 1.1;  // the outermost rays are up to 1/48 of the box farther out, more where they graze
+        constexpr double margin = 1.1;  // the outermost rays are up to 1/48 of the box farther out, more at grazing incidence
         const auto box = lens_.directions(u);
         if (!box) return;
         for (int j = 0; j < (strips_ ? 1 : across); ++j)
@@ -179,6 +185,7 @@ class LensMapping::Tracing {
             }
     }
 
+    /// Returns the line of the ray aimed at a point, less the nodal line of slope -u/g, in the plane of green light's H'.
     std::optional<std::array<double, 4>> shift(Point u, Point at) const {
         const auto ray = lens_.ray(u, lens_.towards(u, at));
         if (!ray) return {};
@@ -189,10 +196,10 @@ class LensMapping::Tracing {
     Geometry geometry_;
     LensTrace lens_;
     bool strips_;
-    double inverse_gap_, green_plane_;  // of green light: its gap, its rear principal plane from this light's
-    double vergence_;                   // 1 / distance of the central depth plane, 1/mm
-    double window_;                     // radius, in slope: what so many panel pixels subtend
-    Point widest_{1e-9, 1e-9};          // half the extents of the aperture
+    double inverse_gap_, green_plane_;  // of green light: 1/g, and the height of its H' over this light's
+    double vergence_;                   // 1/L, 1/mm
+    double window_;                     // 2.5 a/g, as a slope
+    Point widest_{1e-9, 1e-9};          // half the extents of the aperture in the principal planes, mm
 };
 
 LensMapping::LensMapping(const Display& display, const Geometry& green, double wavelength_nm, int rays, int threads)
@@ -200,7 +207,7 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
     const bool strips = is_strips(display.array);
     if (strips) reach_[1] = 0;
     const Tracing tracing(display, green, wavelength_nm, reach_);
-    std::array<int, 2> steps{};  // from the axis to the end of the table; the rest is its mirror image
+    std::array<int, 2> steps{};  // from the axis to the end of the table; the other parts are mirror images
     for (std::size_t k = 0; k < 2; ++k) {
         steps[k] = k == 1 && strips
                        ? 0
@@ -208,16 +215,18 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
         nodes_[k] = 2 * steps[k] + 1;
         per_mm_[k] = steps[k] > 0 ? steps[k] / reach_[k] : 0;
     }
+    // Single rays are those of the recurrence that pass the lens for the point on the axis.
     const Tracing::TracedAim axis = tracing.from({0, 0});
     for (int k = 0; axis.rays > 0 && int(places_.size()) < rays && k < 64 * rays; ++k)
         if (const RayPlace place = spread<4>(k); tracing.one({0, 0}, axis.box, place)) places_.push_back(place);
 
     width_ = nodes_[0] + 2;
-    const std::size_t size =
-        std::size_t(width_) * std::size_t(nodes_[1] + 3);  // strips have one row of nodes, of four that are read
+    // Interpolation reads four rows: of strips, which have one row of nodes, one more than the border adds.
+    const std::size_t size = std::size_t(width_) * std::size_t(nodes_[1] + 3);
     const MappingTable empty{std::vector<LineShift>(size), std::vector<float>(size), true};
     lines_ = empty;
     rays_.assign(places_.size(), empty);
+    // Writes a node and its mirror images.
     const auto set = [&](MappingTable& table, int i, int j, const LineShift& line, float light) {
         for (const int x : {-1, 1})
             for (const int y : {-1, 1}) {
@@ -243,8 +252,8 @@ LensMapping::LensMapping(const Display& display, const Geometry& green, double w
     for (MappingTable& table : rays_) complete(table);
 }
 
-/// Extrapolates the lines around the table and into the dark, node by node from where there is light, so that they stay smooth up
-/// to its border.
+/// Extrapolates the lines around the table and into nodes without light, linearly and node by node from those with light, so that
+/// they stay smooth up to its border.
 void LensMapping::complete(MappingTable& table) const {
     const int height = nodes_[1] + 2;
     std::vector<char> known(table.light.size());
@@ -255,7 +264,7 @@ void LensMapping::complete(MappingTable& table) const {
     const auto is_known = [&](int i, int j) {
         return i >= 0 && j >= 0 && i < width_ && j < height && known[std::size_t(j * width_ + i)];
     };
-    constexpr int reach = 3;  // interpolation asks for no more
+    constexpr int reach = 3;  // interpolation reads no farther
     for (int round = 0; round < reach; ++round) {
         std::vector<char> found = known;
         for (int j = 0; j < height; ++j)
@@ -287,7 +296,7 @@ LensMapping::Between LensMapping::between(std::size_t axis, double u) const {
 }
 
 bool LensMapping::MappingTable::at(int width, const Between& ux, const Between& uy, LineShift& out) const {
-    // Node n of the mapping is n + 1 in the table: the first of the four is one before.
+    // Node n of the mapping is entry n + 1 of the table, so that the first of the four nodes is entry `first`.
     const std::size_t corner = std::size_t(uy.first * width + ux.first), step = std::size_t(width);
     const auto lit = [&](std::size_t n) { return light[n] > 0; };
     if (!all_lit && !lit(corner + step + 1) && !lit(corner + step + 2) && !lit(corner + 2 * step + 1) &&

@@ -10,7 +10,7 @@
 namespace lfdsim {
 namespace {
 
-/// The direction of a lens's axis: Ry(tilt y) Rx(tilt x) of the z axis.
+/// Returns the direction of a lens's axis, Ry(tilt_y) Rx(tilt_x) applied to the z axis.
 Vec3d axis_direction(const LensError& e) {
     const double x = e.tilt_deg[0] * degree, y = e.tilt_deg[1] * degree;
     return {std::sin(y) * std::cos(x), -std::sin(x), std::cos(y) * std::cos(x)};
@@ -31,7 +31,8 @@ std::shared_ptr<const std::vector<MovedLens>> moved_lenses(const Display& d, con
         const LensError& e = errors[k];
         const auto place = optics::axis_in_array(lattice, optics::Cell<double>{double(k % columns), double(k / columns)});
         const Vec3d along = axis_direction(e);
-        // A point of the lens's axis so far above its vertex, wedged about the array's middle in the vertex plane.
+        // Returns the point of the lens's axis at a height, displaced, tilted about the vertex, and wedged about the array's
+        // centre in the vertex plane; relative to its position as described.
         const auto point = [&](double z_mm) {
             const double above = z_mm - built.vertex_plane_mm;
             const double from[3] = {place.x + e.aside_mm[0] + above * along[0], place.y + e.aside_mm[1] + above * along[1],

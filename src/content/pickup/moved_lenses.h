@@ -1,5 +1,4 @@
-// Nodal points of lenses that stand by themselves, for content that is made for the array as it was built. docs/model.md, "Errors".
-// Floor 2.
+// Nodal points of misaligned lenses, for content made for the array as built. docs/model.md, "Errors". Floor 2.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
@@ -9,8 +8,8 @@
 
 namespace lfdsim {
 
-/// A lens's nodal points: (x, y) from its place in the lattice, in the array's frame, turned about z alone; z over those of
-/// lenses as described; mm.
+/// A lens's nodal points, mm: (x, y) from its lattice position, in the array's frame rotated about z only; z over the nodal
+/// points of lenses as described.
 struct MovedLens {
     struct Point {
         double x, y, z;
@@ -18,8 +17,8 @@ struct MovedLens {
     Point front, rear;
 };
 
-/// The nodal points of each lens, row by row from the lower left, with the array's wedge and bow. Null where content is not
-/// made for such errors, or all lenses stand in the lattice alike. A lens's curvature does not move its nodal points.
+/// Returns the nodal points of each lens, row by row from the lower left, with the array's wedge and bow. Null if content is not
+/// made for such errors, or if all lenses are alike in the lattice. A curvature error does not move nodal points.
 std::shared_ptr<const std::vector<MovedLens>> moved_lenses(const Display&, const Geometry& built);
 
 }  // namespace lfdsim

@@ -1,3 +1,5 @@
+// Test patterns. docs/model.md, "Test patterns".
+
 #include "base/constants.h"
 #include "content/content.h"
 #include "content/pickup/pickup.h"
@@ -13,6 +15,7 @@
 namespace lfdsim {
 namespace {
 
+// Returns a picture of the panel whose pixels colour(column, row, rgb) sets.
 template <class Colour>
 Image fill(const Display& display, const Colour& colour) {
     Image image(int(display.panel.pixels[0]), int(display.panel.pixels[1]));
@@ -37,8 +40,8 @@ void check(const PatternOptions& o) {
     if (!problems.empty()) throw InputError(problems);
 }
 
-// The pixels nearest to one place of each elemental image. They reach 3/4 of a pixel: one pixel where the place is a pixel's
-// centre, two by two where it is a corner, with room for rounding in both cases.
+// Returns the pixels nearest to one position of each elemental image. They reach 3/4 of a pixel: one pixel if the position is a
+// pixel's centre, two by two if it is a corner, with room for rounding in both cases.
 Image view(const Display& display, const Geometry& geometry, const PatternOptions& o) {
     const Pickup pickup(display, geometry);
     const auto reach = [&](int axis) {
@@ -50,8 +53,8 @@ Image view(const Display& display, const Geometry& geometry, const PatternOption
     });
 }
 
-// A half plane at a depth, white on the right: its edge passes through the axis and leans edge_deg from the vertical,
-// counter-clockwise.
+// Returns a half plane at a depth, white on the right: its edge passes through the display's axis, edge_deg counter-clockwise
+// from the vertical.
 Image edge(const Display& display, const Geometry& geometry, const PatternOptions& o) {
     const Pickup pickup(display, geometry);
     const double c = std::cos(o.edge_deg * degree), s = std::sin(o.edge_deg * degree),
@@ -62,7 +65,8 @@ Image edge(const Display& display, const Geometry& geometry, const PatternOption
     });
 }
 
-// Every pixel's code values give its position: R column / 16, G row / 16 (both modulo 256), B the two remainders.
+// Returns the picture in which every pixel's codes give its position: R column / 16, G row / 16 (both modulo 256), B the two
+// remainders.
 Image address(const Display& display) {
     const std::vector<float>& light = decode_table(display.panel.encoding, 8);
     return fill(display, [&](int column, int row, float* rgb) {

@@ -1,4 +1,5 @@
-// The nodal pick-up: which lens owns a panel pixel, and along which line that lens shows it. docs/model.md, "Elemental images".
+// The nodal pick-up: the lens that owns a panel pixel, and the line along which that lens shows it. docs/model.md, "Elemental
+// images".
 #pragma once
 #include "content/pickup/moved_lenses.h"
 #include "display/display.h"
@@ -12,18 +13,19 @@
 
 namespace lfdsim {
 
-/// The line { (x, y) + (z - z_rear) (mx, my) } on the viewer's side of the lens: from panel point P through the front nodal
-/// point, then parallel to itself from the rear one. (x, y) is the lens's axis, unless it stands by itself. Or a line that is
-/// shifted against it.
+/// The line { (x, y) + (z - z_rear) (mx, my) } on the viewer's side of a lens, in the display's frame, mm: from the panel point
+/// through the front nodal point, then parallel to itself from the rear one. (x, y) is the lens's axis, unless the lens is
+/// misaligned or the line is shifted by a traced pick-up.
 struct NodalLine {
     double x, y, mx, my;
     bool owned;         // false: the nearest elemental image belongs to no lens, the pixel stays black
-    bool dark = false;  // none of its light leaves that lens: it stays black, too
+    bool dark = false;  // none of its light leaves the lens; its pixel is black, too
 };
 
+/// The elemental images of a display. Panel points are in mm from the panel's centre.
 class Pickup {
   public:
-    /// The pick-up of elemental images made for a display, `g` its resolve().
+    /// The pick-up of elemental images made for a display, `g` its resolve(): of the display as described, or as built.
     Pickup(const Display& d, const Geometry& g) : Pickup(d, IntendedGeometry{meant_geometry(d, g)}) { moved_ = moved_lenses(d, g); }
 
   private:
@@ -44,28 +46,30 @@ class Pickup {
           inverse_scale_(1 / scale) {}
 
   public:
-    /// Centre of panel pixel (column, row), mm.
+    /// Return the centre of panel pixel (column, row), mm.
     double x_mm(double column) const { return (left_ + column + 0.5) * pixel_; }
     double y_mm(double row) const { return (top_ - row - 0.5) * pixel_; }
 
-    /// The pixel whose column or row a panel point is in.
+    /// Return the column or row of the pixel that contains a panel point.
     double column(double x) const { return std::floor(x / pixel_ - left_); }
     double row(double y) const { return std::floor(top_ - y / pixel_); }
 
-    /// The line of the panel point (x, y). The line from the viewer at (0, 0, D) through the nodal points of the lens at C
-    /// meets the panel at C scale, scale = 1 + g / (D - z_rear): the centre of its elemental image. The nearest centre is found
-    /// in the array's own axes, where lens (i, j) covers the unit square from (i, j).
+    /// Returns the line of the panel point P = (x, y), of slope (C - P)/g. The elemental image of the lens at C is centred at e
+    /// C, with e = `scale` = 1 + g/(D' - z_rear), where the line from the viewer at (0, 0, D') through its nodal points meets the
+    /// panel. The owner is therefore the lens whose cell contains P/e.
     NodalLine line(double x, double y) const {
         return line(x, y, [](double, double, Shift&) { return true; });
     }
 
-    /// How a line differs from the nodal one, in the array's frame: where it passes the rear principal plane, and in slope.
+    /// The difference of a line from the nodal one, in the array's frame: position in the plane of the rear principal point, mm,
+    /// and slope.
     struct Shift {
         double x = 0, y = 0, mx = 0, my = 0;
     };
 
-    /// The line of a panel point, shifted by what shift(ux, uy, out) says of the panel point's place from its lens's axis, in
-    /// the array's frame. It answers whether light of that point leaves the lens. Of strips its x and mx count.
+    /// Returns the line of a panel point, shifted by what shift_of(ux, uy, out) writes for the panel point's position u from its
+    /// lens's axis, in the array's frame. shift_of() returns whether light of that point leaves the lens. Of strips only x and mx
+    /// of the shift count.
     template <class ShiftOf>
     NodalLine line(double x, double y, const ShiftOf& shift_of) const {
         if (moved_) return line_of_moved(x, y, shift_of);
@@ -88,14 +92,14 @@ class Pickup {
     }
 
     const Lattice<double>& lattice() const { return lattice_; }
-    /// Whether lenses stand by themselves: columns and rows then have nothing in common.
+    /// Returns whether lenses differ, so that pixels of a column or row have nothing in common.
     bool irregular() const { return moved_ != nullptr; }
 
-    /// Where the panel point (x, y) lies in its elemental image: in the array's axes, units of the elemental pitch, 0 at the
-    /// centre, -0.5 .. 0.5.
+    /// The position of a panel point in its elemental image: along the array's axes, in widths and heights of the image, 0 at the
+    /// centre, -0.5 to 0.5.
     struct ElementalPosition {
         double u, v;
-        bool owned;
+        bool owned;  // false: no lens owns the panel point; its pixel is black
     };
     ElementalPosition place(double x, double y) const {
         const NodalLine l = line(x, y);
@@ -107,21 +111,21 @@ class Pickup {
         return {off.x / (lattice_.pitch[0] * scale), lattice_.strips ? 0 : off.y / (lattice_.pitch[1] * scale), l.owned};
     }
 
-    /// Whether the panel point (x, y) is nearer than `margin` mm to the border of an elemental image.
+    /// Returns whether a panel point is nearer than `margin` mm to the border of an elemental image.
     bool near_border(double x, double y, double margin) const {
         const ElementalPosition at = place(x, y);
         return !optics::in_cell(lattice_, at.u * lattice_.pitch[0], at.v * lattice_.pitch[1], -margin / scale);
     }
 
   private:
-    /// A lens's nodal points from the array's middle, in the array's frame, mm; 1/g of that lens; how far its rear one is above
-    /// those of lenses as described.
+    /// The nodal points of a lens from the array's centre, in the array's frame, mm; 1/g of that lens; and the height of its rear
+    /// nodal point over that of lenses as described.
     struct Nodal {
         optics::Vec2<double> front, rear;
         double per_gap, up;
     };
 
-    /// The lens at that number, or where there is none the nearest.
+    /// Returns the lens of that number, or the nearest one if it does not exist.
     optics::Cell<double> nearest(optics::Cell<double> lens) const {
         return {std::clamp(lens.i, 0., lattice_.count[0] - 1), std::clamp(lens.j, 0., lattice_.count[1] - 1)};
     }
@@ -137,7 +141,7 @@ class Pickup {
                 moved.rear.z};
     }
 
-    /// Where on the panel the middle of that lens's elemental image is: its line goes to the viewer.
+    /// Returns the centre of a lens's elemental image on the panel, F - g (V - R)/(D' - z_R), V = (0, 0) the viewer.
     optics::Vec2<double> image_centre(optics::Cell<double> lens) const {
         const Nodal at = nodal(lens);
         const auto front = optics::in_display(lattice_, at.front), rear = optics::in_display(lattice_, at.rear);
@@ -145,13 +149,15 @@ class Pickup {
         return {front.x + rear.x * slope, front.y + rear.y * slope};
     }
 
+    /// Returns the lens that would own a panel point if no lens were misaligned.
     optics::Cell<double> lens_near(double x, double y) const {
         const auto at =
             optics::to_array(lattice_, x * inverse_scale_ - lattice_.offset[0], y * inverse_scale_ - lattice_.offset[1]);
         return optics::lens_at(lattice_, at.x, at.y);
     }
 
-    /// The lens in whose cell, moved to where its elemental image is, a panel point lies: found in a few steps.
+    /// Returns the lens in whose cell, moved to the centre of its elemental image, a panel point lies; found by a few iterations,
+    /// which end when the lens does not change.
     optics::Cell<double> owner_of_moved(double x, double y) const {
         optics::Cell<double> lens = lens_near(x, y);
         for (int step = 0; step < 8; ++step) {
@@ -172,6 +178,7 @@ class Pickup {
         const auto p = optics::to_array(lattice_, x - lattice_.offset[0], y - lattice_.offset[1]);
         Shift shift;
         const bool lit = shift_of(p.x - at.front.x, p.y - at.front.y, shift);
+        // The slope is (F - P)/g; the line passes R, at the height `up`.
         const double mx = (at.front.x - p.x) * at.per_gap + shift.mx, my = (at.front.y - p.y) * at.per_gap + shift.my;
         const auto through =
             optics::in_display(lattice_, optics::Vec2<double>{at.rear.x + shift.x - mx * at.up, at.rear.y + shift.y - my * at.up});
@@ -179,9 +186,10 @@ class Pickup {
         return {through.x, through.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit};
     }
 
-    /// Strips show a panel point in the plane through their rear nodal line, in which the viewer's eyes, on a level with the
-    /// panel's middle at the distance D, see it from one place. Along the strip its light passes plane plates: in the array's
-    /// frame it rises by m_y for each mm of their reduced thickness.
+    /// Returns the line of a panel point under a strip: it lies in the plane of light of the slope m_x = (x'_c - x'_P)/g through
+    /// the strip's rear nodal line, and there goes to the viewers' eyes on the line y = 0, z = D' of the display. Along the strip
+    /// its light passes plane plates: m_y = (y'_E - y'_P)/l, with l the reduced thickness up to the vertex plane and the distance
+    /// from there to the eye.
     template <class ShiftOf>
     NodalLine line_of_strip(double x, double y, double owner_x, const ShiftOf& shift_of) const {
         const optics::Cell<double> lens{number(owner_x, 0), 0};
@@ -198,33 +206,35 @@ class Pickup {
         const double mx = (at_lens.front.x - p.x) * at_lens.per_gap + shift.mx, centre = at_lens.rear.x + shift.x - mx * at_lens.up;
         double my = -s / c * mx;
         if (!std::isinf(viewer_)) {
-            // The eye is on the display's line y = 0, where it crosses the strip's plane of light; from the array's middle.
+            // The eye E: where the plane of light crosses the display's line y = 0; from the array's centre, in the display's
+            // frame.
             const double eye_x = (centre + mx * (viewer_ - z_rear) + s * lattice_.offset[1]) / c;
             const auto eye = optics::to_array(lattice_, eye_x, -lattice_.offset[1]);
             my = (eye.y - p.y) / (reduced_top_ + viewer_ - top_z_);
         }
+        // The line in the plane of H': m_y applies to the reduced thickness below the vertex plane.
         const double rise = p.y + my * (reduced_top_ - top_z_ + z_rear);
         const auto at = optics::in_display(lattice_, optics::Vec2<double>{centre, rise});
         const auto slope = optics::to_display(lattice_, mx, my);
         return {at.x, at.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit};
     }
 
-    // The column or row of the lens at a place, from the array's middle; outside the count where there is none. Rounding down
-    // without the library's floor is twice as fast.
+    // Returns the column or row of the lens at a position from the array's centre; outside the count where there is none.
+    // Rounding down without the library's floor is twice as fast.
     double number(double place, int axis) const {
         const double count = lattice_.count[axis], x = place * lattice_.per_pitch[axis] + count / 2;
         const double near = std::min(std::max(x, -1.), count), whole = double(std::int64_t(near));
         return whole > near ? whole - 1 : whole;
     }
 
-    std::shared_ptr<const std::vector<MovedLens>> moved_;  // none where all stand in the lattice alike
+    std::shared_ptr<const std::vector<MovedLens>> moved_;  // null if all lenses are alike in the lattice
     Lattice<double> lattice_;
-    double viewer_, top_z_, reduced_top_;  // the viewer's distance, the vertex plane's, and its reduced one, from the panel, mm
-    double inverse_gap_, pixel_, left_, top_;
+    double viewer_, top_z_, reduced_top_;      // D', the vertex plane's height, and its reduced height, mm
+    double inverse_gap_, pixel_, left_, top_;  // 1/g; a; the panel's left and upper border, pixels
 
   public:
-    double z_rear;
-    double scale;  // elemental pitch / lens pitch
+    double z_rear;  // of H', mm from the panel
+    double scale;   // e: elemental pitch over lens pitch
 
   private:
     double inverse_scale_;

@@ -1,4 +1,4 @@
-// Points of a panel's pixels for which their colours are made. Floor 2.
+// Points of a panel's pixels for which their colours are computed. Floor 2.
 #pragma once
 #include "geometry/subpixels.h"
 
@@ -9,19 +9,19 @@
 
 namespace lfdsim {
 
-/// Whether a pixel's colours are made for different points.
+/// Returns whether a pixel's colours are computed for different points.
 inline bool made_by_channel(const Display& d) {
     return d.panel.subpixels != SubpixelLayout::none && d.content.sampling == ContentSampling::subpixel;
 }
 
-/// The point of a pixel for which a channel of it is made, from the pixel's centre, in pixels to the right and down, for each
-/// pixel of a cell; nothing where the channel is not emitted.
+/// The points for which a channel is computed, one for each pixel of the subpixel cell: from the pixel's centre, in pixels to the
+/// right and down; nothing if the pixel does not emit the channel.
 class ShownPoints {
   public:
     using Point = std::array<double, 2>;
 
-    /// Takes the middle of the pixel, or of the channel's light. If `place` is given: the point at that share of the light's
-    /// width (0) and height (1), counted over its rectangles one after the other.
+    /// The point is the pixel's centre, or, by channel, the centroid of the channel's light. With `place` it is the point at that
+    /// share of the emitting area's width (0) and height (1), counted over its rectangles one after the other.
     ShownPoints(const Panel& panel, bool by_channel, int channel, const std::optional<Point>& place = {}) {
         if (by_channel) cell_ = subpixel_cell(panel).size;
         for (std::int64_t row = 0; row < cell_[1]; ++row)
@@ -32,10 +32,11 @@ class ShownPoints {
                     of_.push_back(by_channel ? centroid(panel, channel, column, row) : Point{});
             }
     }
+    /// Returns the point of a pixel.
     std::optional<Point> of(std::int64_t column, std::int64_t row) const {
         return of_[std::size_t(row % cell_[1] * cell_[0] + column % cell_[0])];
     }
-    /// The point that all pixels have in common that have one.
+    /// Returns the point that all pixels which have one have in common; nothing if they differ.
     std::optional<Point> common() const {
         std::optional<Point> first;
         for (const std::optional<Point>& each : of_) {
@@ -44,6 +45,7 @@ class ShownPoints {
         }
         return first;
     }
+    /// Returns whether all pixels have a point.
     bool everywhere() const {
         return std::all_of(of_.begin(), of_.end(), [](const std::optional<Point>& each) { return each.has_value(); });
     }
@@ -66,7 +68,7 @@ class ShownPoints {
     std::vector<std::optional<Point>> of_;
 };
 
-/// The points of red, green and blue; one point, where all three are made for it.
+/// Returns the points of red, green and blue, or one entry if all three are computed for the same points.
 inline std::vector<ShownPoints> shown_points(const Display& d) {
     std::vector<ShownPoints> all;
     for (int channel = 0; channel < (made_by_channel(d) ? 3 : 1); ++channel) all.emplace_back(d.panel, made_by_channel(d), channel);
