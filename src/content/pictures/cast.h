@@ -1,4 +1,4 @@
-// Rays through a picture, in packets, on all threads. Floor 2, internal to content.
+// Casting of the rays of a picture, in packets, on all threads. Floor 2, internal to content.
 #pragma once
 #include "base/on_threads.h"
 #include "content/pictures/ray_block.h"
@@ -11,8 +11,8 @@
 
 namespace lfdsim {
 
-/// The rays to cast: `samples` for each pixel of `crop`, in a frame of width x height pixels. The mean of those that exist is the
-/// pixel's light. Or as many for each channel: the red of the first ones, then the green of others, then the blue.
+/// The rays to cast: `samples` for each pixel of `crop`, in a frame of width x height pixels. A pixel's light is the mean over
+/// those that exist. By channel, each of red, green and blue has `samples` rays, in this order.
 struct RayRequest {
     int width, height;
     Rect crop;
@@ -20,10 +20,10 @@ struct RayRequest {
     bool by_channel = false;
 };
 
-/// Casts the rays. fill(column, row, block) sets those of the 4 x 4 pixels from there on, for the sample number in the block;
-/// samples of a block come in their order. light_of(block) sets their light, as SceneLight does. Blocks are aligned to the frame,
-/// never to the crop or to a thread's share, so that every pixel comes out the same however the frame is divided. Throws InputError
-/// for a crop outside the frame or a bad thread count.
+/// Casts the rays and returns the picture of the crop. fill(column, row, block) sets the rays of the 4 x 4 pixels from (column,
+/// row) on, for the sample number in the block; a block's samples come in their order. light_of(block) sets their light, as
+/// SceneLight does. Blocks are aligned to the frame, never to the crop or to a thread's share, so that a pixel does not depend on
+/// how the frame is divided. Throws InputError for a crop outside the frame or a bad number of threads.
 template <class Light, class Fill>
 Picture cast(const Light& light_of, const RayRequest& frame, int threads, const char* stage, Job& job, const Fill& fill) {
     const int width = frame.width, height = frame.height;
@@ -44,21 +44,23 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
         std::int64_t count = 0, count_dark = 0;
         RayBlock block;
         Lanes::Mask wanted;
-        double sum[3][RayBlock::lanes];                            // of the samples' light
-        int summed[3][RayBlock::lanes], lost[3][RayBlock::lanes];  // samples that exist, that are dark
+        double sum[3][RayBlock::lanes];                            // light of the samples that hit
+        int summed[3][RayBlock::lanes], lost[3][RayBlock::lanes];  // numbers of samples that exist, and that are dark
         for (int y = y0; y < y0 + tile; y += RayBlock::side) {
-            if (samples > 1 && job.cancelled()) {  // a tile may take long
+            if (samples > 1 && job.cancelled()) {  // a tile of many samples may take long
                 stopped = true;
                 break;
             }
             for (int x = x0; x < x0 + tile; x += RayBlock::side) {
                 if (y + RayBlock::side <= crop.y0 || y >= crop.y1 || x + RayBlock::side <= crop.x0 || x >= crop.x1) continue;
+                // Blocks at the crop's border have pixels outside of it, which are computed but not kept.
                 const bool inside = x >= crop.x0 && y >= crop.y0 && x + RayBlock::side <= crop.x1 && y + RayBlock::side <= crop.y1;
                 bool lit = false;
                 std::fill_n(summed[0], 3 * RayBlock::lanes, 0);
                 std::fill_n(lost[0], 3 * RayBlock::lanes, 0);
                 for (block.sample = 0; block.sample < samples; ++block.sample) {
                     fill(x, y, block);
+                    // Pixels beyond the frame have no rays.
                     if (!inside) {
                         for (int k = 0; k < RayBlock::lanes; ++k) {
                             const int i = x + k % RayBlock::side, j = y + k / RayBlock::side;
@@ -69,7 +71,7 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
                         }
                     }
                     const int first = frame.by_channel ? int(block.sample / frame.samples) : 0,
-                              last = frame.by_channel ? first + 1 : 3;  // channels that this ray is for
+                              last = frame.by_channel ? first + 1 : 3;  // channels that this ray is for: first to last - 1
                     int number = 0;
                     for (int k = 0; k < RayBlock::lanes; ++k) {
                         number -= block.exists.of[k] & (inside ? -1 : wanted.of[k]);
@@ -82,6 +84,7 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
                     for (int k = 0; k < RayBlock::lanes; ++k)
                         for (int c = first; c < last && block.hit.of[k]; ++c) sum[c][k] += double(block.light[c].of[k]);
                 }
+                // A pixel, or a channel of it, is dark if it has dark samples and no others.
                 for (int k = 0; k < RayBlock::lanes; ++k)
                     for (int c = 0; c < (frame.by_channel ? 3 : 1); ++c)
                         count_dark += (lost[c][k] > 0) & (summed[c][k] == 0) & (inside || wanted.of[k] != 0);

@@ -1,3 +1,5 @@
+// The files of content, and reading all of them within common limits.
+
 #include "content/models/memory.h"
 #include "content/models/model.h"
 
@@ -42,7 +44,7 @@ ContentParts load_parts(const std::vector<ContentFile>& files, const LoadOptions
     const auto start = std::chrono::steady_clock::now();
     std::map<ContentFile, std::shared_ptr<const Model>> read;
     LoadOptions left = options;
-    // The process that reads and this one hold a model at the same time.
+    // The reader process and this one hold a model at the same time.
     left.bytes = std::min(left.bytes, std::int64_t(free_memory().bytes / 2));
     ContentParts parts;
     for (const ContentFile& file : files) {

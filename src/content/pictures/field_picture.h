@@ -1,29 +1,31 @@
-// Pictures of light fields and light fields of scenes. Floor 2.
+// Pictures of light fields, and light fields of scenes. Floor 2.
 #pragma once
 #include "content/content.h"
 #include "content/pictures/light_field.h"
 
 namespace lfdsim {
 
+/// Elemental images made of views.
 struct FieldPicture {
     Picture picture;
-    std::int64_t beside_cameras = 0, beside_focus = 0;  // rays that no view shows (LightField::Answer): black
+    std::int64_t beside_cameras = 0, beside_focus = 0;  // numbers of rays that no view shows (LightField::Answer), which are black
 };
 
-/// Elemental images as of a scene, each ray's light from views. The grid's focus is parallel to the panel, its middle over the
-/// panel's. The same bits for any number of threads. Throws InputError for a bad thread count.
+/// Returns elemental images as of a scene, with each ray's light from views. The grid's focus is parallel to the panel and
+/// centred on the display's axis. The bits do not depend on the number of threads. Throws InputError for a bad number of threads.
 FieldPicture elemental_images(const Display&, const Geometry&, const LightField&, int threads, Job&);
 
-/// How the views of a scene are made.
+/// Options of the views of a scene.
 struct ViewMaking {
     int width, height;     // pixels of each
-    std::int64_t samples;  // rays of a pixel, spread over it
-    int threads = 0;       // 0: all
+    std::int64_t samples;  // rays for each pixel, spread over it
+    int threads = 0;       // 0: one for each processor
 };
 
-/// What one of the grid's cameras sees of a scene: the focus, from edge to edge. Throws InputError for a bad thread count.
+/// Returns what one of the grid's cameras sees of a scene: exactly the focus. Throws InputError for a bad number of threads.
 Picture scene_view(const ContentScene&, const Geometry&, const ViewGrid&, int column, int row, const ViewMaking&, Job&);
-/// How far from the cameras' plane that is, mm, in all three channels, through the middle of each pixel; 0 where nothing is.
+/// Returns the distance of what that camera sees from the cameras' plane, mm, in all three channels, through each pixel's centre;
+/// 0 where nothing is.
 Picture scene_view_depth(const ContentScene&, const Geometry&, const ViewGrid&, int column, int row, const ViewMaking&, Job&);
 
 }  // namespace lfdsim

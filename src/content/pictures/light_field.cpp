@@ -12,7 +12,7 @@
 namespace lfdsim {
 namespace {
 
-/// A pixel and its neighbour around a place along one axis, and the neighbour's share.
+/// The two pixels around a position along one axis, and the share of the second.
 struct PixelPair {
     int low, high;
     float share;
@@ -35,7 +35,8 @@ void bilinear(const Image& image, float x, float y, float light[3]) {
     }
 }
 
-/// The last of the falling or rising places that is not beyond `at`, at most the last but one.
+/// Returns the index of the interval of ascending or descending positions that contains `at`; the first or the last one beyond
+/// their ends.
 std::size_t part_of(const std::vector<double>& places, double at, bool rising) {
     std::size_t low = 0, high = places.size() - 1;
     while (low + 1 < high) {
@@ -90,11 +91,13 @@ LightField::LightField(ViewGrid grid, std::vector<Image> views, std::vector<Kapp
             column_x_[std::size_t(i)] += grid_.camera(i, j)[0] / grid_.rows;
             row_y_[std::size_t(j)] += grid_.camera(i, j)[1] / grid_.columns;
         }
+    // A pixel of a view is 1/pixels_per_mm wide in the plane of the focus, and a point moves by kappa times the cameras' step.
     const double step = grid_.columns > 1 ? (column_x_.back() - column_x_.front()) / (grid_.columns - 1)
                         : grid_.rows > 1  ? (row_y_.front() - row_y_.back()) / (grid_.rows - 1)
                                           : grid_.distance_mm;
     disparity_tolerance_ = float(1 / (step * double(pixels_per_mm_[0])));
 
+    // The range of kappa, and the map nearest to the middle
     furthest_ = std::numeric_limits<float>::max();
     nearest_ = -furthest_;
     double from_middle = std::numeric_limits<double>::infinity();
@@ -106,7 +109,7 @@ LightField::LightField(ViewGrid grid, std::vector<Image> views, std::vector<Kapp
         for (const float kappa : maps_[k].kappa)
             if (std::isfinite(kappa)) furthest_ = std::min(furthest_, kappa), nearest_ = std::max(nearest_, kappa);
     }
-    if (nearest_ < furthest_) nearest_ = furthest_ = 0;  // nothing is there
+    if (nearest_ < furthest_) nearest_ = furthest_ = 0;  // nothing is anywhere
     for (KappaMap& map : maps_)
         for (float& kappa : map.kappa)
             if (!std::isfinite(kappa)) kappa = furthest_;  // where nothing is, a wall behind everything
@@ -118,8 +121,8 @@ struct LightField::Cell {
     float s, t;
 };
 
-// The places of a grid's cameras may be uneven: the point (s, t) between four of them whose bilinear mean is the line's place, by
-// Newton's method, in the cell where both are within 0 .. 1.
+// Cameras may be unevenly spaced: (s, t) is the point between four of them whose bilinear mean is the line's position, by
+// Newton's method, in the cell in which both are within 0 to 1.
 bool LightField::cell_of(const FieldLine& line, Cell& cell) const {
     const double x = double(line.camera_x), y = double(line.camera_y);
     const int columns = grid_.columns, rows = grid_.rows;
@@ -133,6 +136,7 @@ bool LightField::cell_of(const FieldLine& line, Cell& cell) const {
         } else if (columns == 1) {
             t = (y - a[1]) / (grid_.camera(i, j + 1)[1] - a[1]);
         } else {
+            // The mean is a + s b + t c + s t e.
             const auto &b = grid_.camera(i + 1, j), &c = grid_.camera(i, j + 1), &d = grid_.camera(i + 1, j + 1);
             const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1], ex = d[0] - b[0] - cx,
                          ey = d[1] - b[1] - cy;
@@ -151,17 +155,17 @@ bool LightField::cell_of(const FieldLine& line, Cell& cell) const {
         i += right;
         j += down;
     }
-    // Each camera stands for what is nearer to it than to the others: the outermost for half a step beyond them, where the
-    // elemental images of a display's own quilts end: single precision has not to cut them.
+    // A camera stands for lines that are nearer to it than to other cameras, the outermost ones for half a step beyond them,
+    // where the elemental images of a display for quilts end: rounding in single precision must not cut these.
     constexpr double beyond = 0.5001;
     if (!(s >= -beyond && s <= 1 + beyond && t >= -beyond && t <= 1 + beyond)) return false;
     cell = {i, j, float(std::clamp(s, 0., 1.)), float(std::clamp(t, 0., 1.))};
     return true;
 }
 
-// Along the line from the viewer's side on, a camera sees its points in the focus's plane on a straight way, linear in kappa:
-// X = focus + (camera of the line - this camera) kappa. The line meets the scene where kappa falls below that of the map there.
-// Where it falls by a leap, the line goes behind something that this camera sees, and may come out again.
+// Along the line, from the viewer's side on, a camera sees the line's points in the plane of the focus at X = F + kappa (C - c),
+// linear in kappa. The line meets the scene where kappa falls below that of the map there. Where it does so in a leap, the line
+// passes behind something that this camera sees, and may emerge again.
 bool LightField::surface(const KappaMap& map, const std::array<double, 2>& camera, const FieldLine& line, float& kappa) const {
     constexpr int most_steps = 512;
     const float dx = grid_.columns > 1 ? line.camera_x - float(camera[0]) : 0,
@@ -175,7 +179,7 @@ bool LightField::surface(const KappaMap& map, const std::array<double, 2>& camer
         const float a = map.at(column.low, row.low), b = map.at(column.high, row.low), c = map.at(column.low, row.high),
                     d = map.at(column.high, row.high);
         const auto [low, high] = std::minmax({a, b, c, d});
-        // Between two things there is none half-way.
+        // Between two surfaces the nearer texel counts: no surface is half-way.
         if (high - low > disparity_tolerance_)
             return map.at(column.share < 0.5f ? column.low : column.high, row.share < 0.5f ? row.low : row.high);
         const float above = a + (b - a) * column.share, below = c + (d - c) * column.share;
@@ -185,6 +189,7 @@ bool LightField::surface(const KappaMap& map, const std::array<double, 2>& camer
     const int steps = int(std::clamp(std::ceil(2 * pixels * range), 1.f, float(most_steps)));
     const float leap = std::max(2 * range / float(steps), disparity_tolerance_);
     float before = nearest_, over_before = std::max(0.f, nearest_ - of_map(nearest_));
+    // The line starts on a surface, or moves by less than half a pixel of the map over the whole range.
     if (over_before == 0 || pixels * range < 0.5f) return kappa = of_map(nearest_), true;
     for (int n = 1; n <= steps; ++n) {
         const float k = n == steps ? furthest_ : nearest_ - range * float(n) / float(steps), over = k - of_map(k);
@@ -208,8 +213,10 @@ bool LightField::read(std::size_t view, const FieldLine& line, float kappa, cons
     if (!(column >= -beyond[0] && column <= float(picture.width()) + beyond[0] && row >= -beyond[1] &&
           row <= float(picture.height()) + beyond[1]))
         return false;
+    // z = B kappa/(1 + kappa)
     const float z = float(grid_.distance_mm) * kappa / (1 + kappa);
-    const float seen_mm = width.per_mm * std::abs(z - width.waist_z_mm) * (1 + kappa);  // projected onto the focus
+    // Projected from the camera onto the focus, the width is B/(B - z) = 1 + kappa times as large.
+    const float seen_mm = width.per_mm * std::abs(z - width.waist_z_mm) * (1 + kappa);
     picture.sample(column, row, seen_mm * std::max(pixels_per_mm_[0], pixels_per_mm_[1]), light);
     return true;
 }
@@ -245,7 +252,7 @@ LightField::Answer LightField::light(const FieldLine& line, const Width& width, 
             }
             if (around[k].found) front = std::max(front, around[k].kappa), any = true;
         }
-        // What one camera sees on the line hides what others would see behind it.
+        // The nearest surface that one camera sees on the line hides what others would see behind it.
         for (int k = 0; k < count && any; ++k)
             if (!around[k].found || front - around[k].kappa > 1.5f * disparity_tolerance_) around[k].weight = 0;
     }
@@ -257,7 +264,7 @@ LightField::Answer LightField::light(const FieldLine& line, const Width& width, 
         for (int c = 0; c < 3; ++c) light[c] += around[k].weight * own[c];
     }
     if (sum == 0) return Answer::beside_focus;
-    if (by_depth_)  // else the four have the same place, and their weights are 1 together
+    if (by_depth_)  // if not, all four weights count, which add up to 1
         for (int c = 0; c < 3; ++c) light[c] /= sum;
     return Answer::seen;
 }

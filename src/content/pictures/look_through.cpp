@@ -3,9 +3,10 @@
 namespace lfdsim {
 namespace {
 
-// Rays start again a little behind what they met, by more than rounding: else they would meet it for ever.
+// Rays continue a little behind the surface that they met, by more than rounding: they would meet it again and again otherwise.
 constexpr float beyond = 1 + 4e-7f, least = 1e-20f;
 
+// Returns the material that ray k has met.
 std::uint32_t material_at(const ContentScene::Impl& scene, const RTCHit16& hit, int k) {
     return scene.model->material_of[hit.primID[k]];
 }
@@ -16,10 +17,10 @@ void look_through(const ContentScene::Impl& scene, const Beam& beam, RTCIntersec
                   const Lanes& width_mm) {
     constexpr int lanes = RayBlock::lanes;
     RTCRayHit16& packet = block.packet;
-    Lanes through;  // of each ray, so far
+    Lanes through;  // share of the light that passes all images so far, for each ray
     scene.shade(packet.hit, block.hit, width_mm, block.light, &through);
     Lanes::Mask goes_on;
-    std::uint32_t last[lanes];  // material that it met
+    std::uint32_t last[lanes];  // the material that each ray met last
     for (int k = 0; k < lanes; ++k) {
         goes_on.of[k] = block.hit.of[k] & -int(through.of[k] > 0);
         if (block.hit.of[k]) last[k] = material_at(scene, packet.hit, k);
@@ -39,7 +40,7 @@ void look_through(const ContentScene::Impl& scene, const Beam& beam, RTCIntersec
         if (!goes_on.any()) break;
         scene.shade(packet.hit, goes_on, width_here, light, &through_this);
         for (int k = 0; k < lanes; ++k) {
-            // A ray crosses a plane once; on the edge of two triangles it may meet both.
+            // An image is plane, so that a ray meets it once; on the edge of two triangles it may meet both.
             if (!goes_on.of[k] || material_at(scene, packet.hit, k) == last[k]) continue;
             last[k] = material_at(scene, packet.hit, k);
             for (int c = 0; c < 3; ++c) block.light[c].of[k] += through.of[k] * light[c].of[k];

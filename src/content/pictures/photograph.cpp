@@ -1,3 +1,5 @@
+// The reference photograph. docs/model.md, "Reference photograph".
+
 #include "base/vec.h"
 #include "content/pictures/cast.h"
 #include "optics/camera.h"
@@ -9,12 +11,12 @@ namespace {
 // Returns the unit vector like normalised(), but with a different rounding, on which the bits of photographs depend.
 Vec3d unit(const Vec3d& a) { return times(1 / std::sqrt(dot(a, a)), a); }
 
-/// The camera's frame: rays are axis + slopes, so that their t is the depth along the axis.
+/// The camera's axes and pixels. Directions of rays are axis + slopes, so that their t is the depth along the axis.
 struct CameraFrame {
     Vec3d axis, right, up;
     int width, height;
-    double slope;               // of a pixel
-    double pupil_mm, focus_mm;  // radius of the pupil, 0: a pinhole; depth in which its rays meet again
+    double slope;               // width of a pixel as a slope
+    double pupil_mm, focus_mm;  // radius of the pupil, 0: a pinhole; depth of the plane in which a pixel's rays meet
 
     CameraFrame(const Camera& camera, const Geometry& geometry) {
         const Vec3d towards = minus(camera.target_mm, camera.position_mm);
@@ -29,9 +31,9 @@ struct CameraFrame {
     }
 };
 
-/// The pixels that may show a box, with a margin of two; all of them if part of it is behind the camera. `corner(n)` is one of
-/// its eight corners in the frame (right, up, ahead). Seen from a place o in the pupil a point's image is shifted by
-/// o (1/focus - 1/depth) against the pinhole's.
+/// Returns the pixels that may show a box, with a margin of two; all pixels if part of it is behind the camera. `corner(n)` is
+/// one of its eight corners in the frame (right, up, ahead). Seen from a point o of the pupil a point's image is shifted by o
+/// (1/focus - 1/depth).
 template <class Corner>
 Rect pixels_of_box(const CameraFrame& frame, const Corner& corner) {
     double x0 = frame.width, y0 = frame.height, x1 = 0, y1 = 0;
@@ -46,8 +48,8 @@ Rect pixels_of_box(const CameraFrame& frame, const Corner& corner) {
     return {pixel(x0 - 2, frame.width), pixel(y0 - 2, frame.height), pixel(x1 + 2, frame.width), pixel(y1 + 2, frame.height)};
 }
 
-/// The rays of a photograph, a block at a time. They start in the plane that touches the scene's bounding sphere, or at the camera
-/// when that plane lies behind it.
+/// The rays of a photograph, a block at a time. They start in the plane that touches the scene's bounding sphere, or at the
+/// camera if that plane lies behind it.
 class PhotographRays {
   public:
     PhotographRays(const Display& display, const Geometry& geometry, const ContentScene& scene)
@@ -68,11 +70,13 @@ class PhotographRays {
 
     int width() const { return frame_.width; }
     int height() const { return frame_.height; }
+    /// Returns whether a pixel has one ray, through its centre.
     bool one_ray() const { return frame_.pupil_mm == 0 && !filtered_; }
     std::int64_t samples() const { return one_ray() ? 1 : render_.samples.value_or(default_points); }
-    /// A ray is as wide as the part of the pixel that it stands for.
+    /// Returns the rays' width: that of the part of the pixel for which a ray stands, from the camera on.
     Beam beam() const { return {float(filtered_ ? frame_.slope / std::sqrt(double(samples())) : frame_.slope), float(-start_)}; }
 
+    /// Sets the rays of the block at (column, row) for block.sample.
     void operator()(int column, int row, RayBlock& block) const {
         constexpr int side = RayBlock::side;
         const bool may_hit = column < seen_.x1 && column + side > seen_.x0 && row < seen_.y1 && row + side > seen_.y0;
@@ -85,7 +89,7 @@ class PhotographRays {
     }
 
   private:
-    /// A ray is the sum of a part from its column and one from its row.
+    /// Sets rays through pixels' centres: sums of a part for the column and one for the row.
     void through_centres(int column, int row, RayBlock& block) const {
         constexpr int side = RayBlock::side;
         const Vec3d dx = times(frame_.slope, frame_.right), dy = times(frame_.slope, frame_.up);
@@ -106,7 +110,8 @@ class PhotographRays {
         }
     }
 
-    /// Rays spread over pixel and pupil as in a rendering (optics/camera.h), by the same sample points.
+    /// Sets rays spread over pixel and pupil as in a rendering (optics/camera.h), with the same sample numbers: 2, 3 for the
+    /// pixel, 4, 5 for the pupil.
     void spread(int column, int row, RayBlock& block) const {
         constexpr int side = RayBlock::side;
         if (block.sample == 0) {
@@ -129,6 +134,8 @@ class PhotographRays {
             const double y = (0.5 * frame_.height - row - k / side - 0.5 + jitter_y) * frame_.slope;
             const double right = frame_.pupil_mm * double(pupil_x), up = frame_.pupil_mm * double(pupil_y);
             for (std::size_t c = 0; c < 3; ++c) {
+                // A ray from the point o of the pupil meets the pixel's other rays at the depth of the focus: its slope is less
+                // by o/focus.
                 const double aside = frame_.right[c] * right + frame_.up[c] * up;
                 const double slope = frame_.axis[c] + x * frame_.right[c] + y * frame_.up[c] - aside / frame_.focus_mm;
                 origin[c][k] = float(from_[c] + aside + start_ * slope);
@@ -141,7 +148,7 @@ class PhotographRays {
     CameraFrame frame_;
     Render render_;
     bool filtered_;
-    Vec3d from_;    // the camera, from the scene's centre
+    Vec3d from_;    // camera's position from the scene's centre
     double start_;  // depth of the plane in which rays start
     Rect seen_;     // pixels that may show the scene
 };

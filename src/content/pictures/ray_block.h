@@ -9,27 +9,28 @@
 
 namespace lfdsim {
 
-/// What all rays of a picture share.
+/// The width of a picture's rays: width_per_t |t - waist_t|, mm, at the distance t along them.
 struct Beam {
-    float width_per_t;  // width of a ray's footprint in mm: width_per_t |t - waist_t|
+    float width_per_t;
     float waist_t;
 };
 
-/// Sixteen rays of a 4 x 4 block of pixels, starting in a plane in front of the scene; origins about the scene's centre. They are
-/// processed in loops over all lanes without branches, which the compiler turns into SIMD. Masks are -1 or 0.
+/// Sixteen rays of a 4 x 4 block of pixels, which start in a plane in front of the scene, with origins relative to the scene's
+/// centre. They are processed in loops over all lanes without branches, which the compiler turns into SIMD. Masks are -1 or 0.
 ///
-/// Neighbours under one lens make a packet, not equal pixels under neighbouring lenses, whose rays are parallel: at z in front
-/// of the lenses four neighbours' rays are 4 a z / g apart, four lenses' 4 p, which is more for all z < p g / a, more than a metre.
+/// A packet has neighbouring pixels under one lens, not equal pixels under neighbouring lenses, whose rays are parallel: at z in
+/// front of the lenses the rays of four neighbours are 4 a z/g apart, those of four lenses 4 p, which is more for all z < p g/a,
+/// more than a metre.
 struct RayBlock {
     static constexpr int side = 4, lanes = Lanes::count;
     RTCRayHit16 packet;
-    Lanes::Mask exists;   // a pixel without a lens has no ray
-    Lanes::Mask may_hit;  // only these are traced
-    Lanes::Mask dark{};   // pixels whose light never leaves their lens: there is no ray, and it is counted
-    Lanes::Mask hit;
+    Lanes::Mask exists;                          // a pixel without a lens has no ray
+    Lanes::Mask may_hit;                         // only these rays are traced
+    Lanes::Mask dark{};                          // pixels whose light does not leave their lens have no ray, and are counted
+    Lanes::Mask hit;                             // rays that met the scene
     Lanes light[3];                              // of the rays that hit
-    std::int64_t sample = 0;                     // which of its pixels' rays these are
-    std::vector<optics::Sampler<float>> points;  // of the pixels' samples, kept from one sample to the next where needed
+    std::int64_t sample = 0;                     // number of the pixels' sample that these rays are
+    std::vector<optics::Sampler<float>> points;  // the pixels' sample numbers, kept from sample to sample if needed
 
     RayBlock() {
         // Embree requires these and never changes them; look_through() sets tnear, and back.
@@ -46,12 +47,13 @@ struct RayBlock {
     }
 };
 
-/// Shades a block whose rays have met the scene, `width_mm` wide there, and follows them through images: adds what stands behind,
-/// each time weighted by what all in front of it let through.
+/// Shades a block whose rays have met the scene, `width_mm` wide there, and follows them through images: adds the light behind,
+/// each time weighted by the share that all images in front of it let through, C_1 a_1 + (1 - a_1)(...) of docs/model.md,
+/// "Shading".
 void look_through(const ContentScene::Impl&, const Beam&, RTCIntersectContext&, RayBlock&, const Lanes& width_mm);
 
-/// The light of a scene along a block's rays: traces and shades them, sets `hit` and `light`. False: no ray meets the scene, and
-/// nothing is set.
+/// The light of a scene along a block's rays: traces and shades them, and sets `hit` and `light`. Returns false if no ray meets
+/// the scene; then nothing is set.
 struct SceneLight {
     const ContentScene::Impl& scene;
     Beam beam;

@@ -12,12 +12,13 @@
 namespace lfdsim {
 namespace {
 
-/// Views, their coarser levels, and one more while those are made.
+/// Throws InputError if there is no memory for the views with their coarser levels (4/3), and one more view while those are made.
 void require_views_memory(const ViewsSource& source, std::size_t views, int width, int height) {
     require_memory(source.name, fmt::format("{} views of {} x {} pixels", views, width, height),
                    picture_bytes(width, height) * (4. / 3 * double(views) + 1));
 }
 
+/// Returns the views of a quilt, in the grid's order.
 std::vector<Image> tiles_of(const ViewsSource& source, const Image& quilt, std::vector<std::string>& notes) {
     const auto [columns, rows] = source.tiles;
     const std::string name = source.pictures.front().string();
@@ -25,7 +26,7 @@ std::vector<Image> tiles_of(const ViewsSource& source, const Image& quilt, std::
     if (width < 1 || height < 1)
         throw InputError(name, fmt::format("is {} x {} pixels, fewer than the {} x {} views in its name; correct the name",
                                            quilt.width, quilt.height, columns, rows));
-    // Views have whole pixels. Quilts of some devices have columns and rows to spare; views are counted from the lower left.
+    // Views have whole pixels. Quilts for some devices have spare columns and rows; views are counted from the lower left.
     const auto spare = [&](int rest, const char* where, const char* what) {
         if (rest > 0)
             notes.push_back(rest == 1 ? fmt::format("the {} {} of pixels belongs to no view", where, what)
@@ -52,9 +53,11 @@ std::vector<Image> tiles_of(const ViewsSource& source, const Image& quilt, std::
     return views;
 }
 
+/// Returns the map of a file's values: kappa = d w/(n b) for a disparity of d pixels from camera to camera, with a step b and a
+/// focus w wide on n pixels; kappa = B/s - 1 for the distance s from the cameras' plane (docs/model.md, "Grids of views").
 KappaMap kappa_map(const ViewsSource& source, const Image& values, const ViewGrid& grid, double step_mm) {
     KappaMap map{values.width, values.height, {}};
-    // How much faster pictures change with the cameras' places than where they were taken.
+    // Views may be placed with another ratio of focus to step than they were taken with; kappa changes by it.
     const double scale = source.width_mm && source.step() > 0 ? grid.width_mm / *source.width_mm / (step_mm / source.step()) : 1;
     for (std::size_t i = 0; i < values.rgb.size(); i += 3) {
         const double value = double(values.rgb[i]);
@@ -64,12 +67,13 @@ KappaMap kappa_map(const ViewsSource& source, const Image& values, const ViewGri
         else if (value > 0)
             kappa = (*source.distance_mm / (value * source.depth_unit_mm) - 1) * scale;
         else
-            kappa = INFINITY;  // nothing there
+            kappa = INFINITY;  // nothing is there
         map.kappa.push_back(std::isfinite(kappa) ? float(std::clamp(kappa, -0.9999, 1e4)) : INFINITY);
     }
     return map;
 }
 
+/// Returns the mean step between neighbouring cameras of a row, or of a single column, mm.
 double step_of(const ViewGrid& grid) {
     const auto &first = grid.camera_mm.front(), &last = grid.camera_mm.back();
     if (grid.columns > 1) return (last[0] - first[0]) / (grid.columns - 1);

@@ -11,6 +11,7 @@
 
 namespace lfdsim {
 
+/// Views that were read, placed in front of a display.
 struct ReadViews {
     LightField field;
     OrderDoubt doubt;
@@ -18,9 +19,9 @@ struct ReadViews {
     std::vector<std::string> notes;  // what was assumed, or left out
 };
 
-/// Reads the pictures and depth maps of a source and places them before a display. Nothing if the job was cancelled. Throws
-/// InputError that names the file: unreadable, of another size than the first, a quilt that its name does not divide; for what
-/// memory does not hold, before it is read; and as placed() does.
+/// Reads the pictures and depth maps of a source and places them in front of a display. Nothing if the job was cancelled. Throws
+/// InputError, which names the file, if one is unreadable, of another size than the first, or a quilt that its name does not
+/// divide; if there is not enough memory, before pictures are read; and as placed() does.
 std::optional<ReadViews> read_views(const ViewsSource&, const ViewsWish&, const ViewsPlace&, Job&);
 
 }  // namespace lfdsim

@@ -1,3 +1,5 @@
+// The posing of models, and their ray-tracing structure. docs/model.md, "Pose".
+
 #include "content/pictures/scene.h"
 
 #include "base/free_memory.h"
@@ -17,13 +19,13 @@
 namespace lfdsim {
 namespace {
 
-/// How a turned model is scaled, and what then becomes the origin.
+/// The scale of a rotated model, and the point of it that becomes the origin.
 struct Placing {
     double scale;
-    Vec3d origin;  // in the model's units, turned
+    Vec3d origin;  // in the model's units, after rotation
 };
 
-// The middle of its box, whose height is given.
+// Returns the placing of a single model: the centre of its box, scaled to its height.
 Placing of_model(const PointBounds& box, double height_mm) {
     const double extent = box.extent(1), scale = height_mm / extent;
     if (!(extent > 0) || !std::isfinite(scale))
@@ -34,7 +36,8 @@ Placing of_model(const PointBounds& box, double height_mm) {
     return {scale, {box.middle(0), box.middle(1), box.middle(2)}};
 }
 
-// Objects keep their places and sizes about their own origin unless they are scaled together.
+// Returns the placing of joined objects, which keep their positions and sizes about their common origin unless they are scaled
+// together.
 Placing of_objects(const PointBounds& box, const std::optional<double>& height_mm) {
     const double scale = height_mm ? *height_mm / box.extent(1) : 1;
     if (!(scale > 0) || !std::isfinite(scale))
@@ -44,6 +47,7 @@ Placing of_objects(const PointBounds& box, const std::optional<double>& height_m
     return {scale, {}};
 }
 
+// Rotates, scales and moves the model's vertices, and rotates the light into the model's axes instead of all normals.
 void pose(ContentScene::Impl& scene, const Display& display, const Geometry& geometry) {
     const Model& model = *scene.model;
     const Content& content = display.content;
@@ -72,7 +76,7 @@ void pose(ContentScene::Impl& scene, const Display& display, const Geometry& geo
     scene.strength = float(content.light.strength);
 }
 
-// Texels per millimetre: the square root of (area in texels / area in mm^2).
+// Makes the textures' pyramids, and measures texels per mm of each triangle: sqrt(area in texels / area in mm^2).
 void measure_textures(ContentScene::Impl& scene) {
     const Model& m = *scene.model;
     std::vector<bool> with_alpha(m.textures.size());
@@ -101,6 +105,7 @@ void measure_textures(ContentScene::Impl& scene) {
     }
 }
 
+// Builds Embree's tree over the posed triangles.
 void build(ContentScene::Impl& scene) {
     const Model& m = *scene.model;
     scene.device.reset(rtcNewDevice(nullptr));
@@ -111,7 +116,7 @@ void build(ContentScene::Impl& scene) {
     };
     rtcSetDeviceMemoryMonitorFunction(scene.device.get(), count, &scene.tree_bytes);
     scene.tree.reset(rtcNewScene(scene.device.get()));
-    // Robust: rays through shared edges must not fall between the triangles.
+    // The robust mode is needed so that rays through shared edges do not pass between the triangles.
     rtcSetSceneFlags(scene.tree.get(), RTC_SCENE_FLAG_ROBUST);
     RTCGeometry mesh = rtcNewGeometry(scene.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, scene.positions_mm.data(), 0, 12, m.vertices());
@@ -127,6 +132,7 @@ void build(ContentScene::Impl& scene) {
                                                                   : "Embree cannot build the ray-tracing structure of the model");
 }
 
+// Returns a scene's posed model, without textures and tree. Small scenes are made without asking for the memory that is free.
 std::shared_ptr<ContentScene::Impl> posed(const ContentParts& parts, const Display& display, const Geometry& geometry) {
     constexpr double small_bytes = 1 << 20;
     if (const double bytes = making_scene_bytes(parts, display); bytes > small_bytes)
@@ -153,8 +159,8 @@ std::string making_scene_text(const ContentParts& parts) {
     return fmt::format("showing {} triangles", triangles);
 }
 
-// Lists that grow while objects are joined may have room for twice as much. Embree 3 takes at most 115 bytes a triangle while it
-// builds a tree of many, and some blocks for one of few.
+// Lists that grow while objects are joined may have room for twice as much. Embree 3 takes at most 115 bytes per triangle while
+// it builds a tree of many triangles, and some blocks for one of few.
 double making_scene_bytes(const ContentParts& parts, const Display& display) {
     constexpr double tree_bytes = 160, least_tree_bytes = 1 << 16, growth = 2, mip_levels = 4. / 3;
     constexpr double vertex_bytes = 4 * (3 + 3 + 2 + 3), triangle_bytes = 4 * (3 + 1), posed_bytes = 4 * 3,
@@ -163,7 +169,7 @@ double making_scene_bytes(const ContentParts& parts, const Display& display) {
     double bytes = least_tree_bytes;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Model& part = *parts[i];
-        const bool flat = !objects.empty() && objects[i].shading == Shading::flat;  // its triangles have vertices of their own
+        const bool flat = !objects.empty() && objects[i].shading == Shading::flat;  // its triangles have separate vertices
         const auto triangles = double(part.triangles());
         const double vertices = flat ? 3 * triangles : double(part.vertices());
         double texels = 0;

@@ -1,18 +1,20 @@
+// Views and depth maps of scenes by the cameras of a grid.
+
 #include "content/pictures/cast.h"
 #include "content/pictures/field_picture.h"
 
 namespace lfdsim {
 namespace {
 
-/// Van der Corput's sequence: with i/n it spreads n points evenly over a pixel.
+/// Returns Van der Corput's sequence: with i/n it spreads n points evenly over a pixel.
 double bits_reversed(std::int64_t i) {
     double value = 0, digit = 0.5;
     for (; i > 0; i >>= 1, digit /= 2) value += digit * double(i & 1);
     return value;
 }
 
-/// Rays from a camera of a grid through the pixels of the focus, a block at a time. Their direction has dz = -1, so that t is
-/// the depth below the plane in which they start: that of the scene's top, or the camera's own where that is lower.
+/// Rays from a camera of a grid through the pixels of the focus, a block at a time. Their direction has dz = -1, so that t is the
+/// depth below the plane in which they start: that of the scene's top, or the camera's if that is lower.
 class GridViewRays {
   public:
     GridViewRays(const ContentScene& scene, const Geometry& geometry, const ViewGrid& grid, int column, int row,
@@ -24,13 +26,15 @@ class GridViewRays {
         start_z_ = std::min(camera_z_, top);
     }
 
-    /// A picture of depth has one ray a pixel, through its middle.
+    /// Returns the rays' width: a pixel of the focus, seen from the camera; N rays of a pixel share it.
     Beam beam() const {
         const double pixel = std::max(grid_.width_mm / making_.width, grid_.height_mm / making_.height);
         return {float(pixel / grid_.distance_mm / std::sqrt(double(making_.samples))), float(start_z_ - camera_z_)};
     }
+    /// Returns the depth of the plane in which rays start below the camera, mm.
     float below_camera() const { return float(camera_z_ - start_z_); }
 
+    /// Sets the rays of the block at (column, row) for block.sample.
     void operator()(int column, int row, RayBlock& block) const {
         RTCRay16& ray = block.packet.ray;
         const double x_share = (double(block.sample) + 0.5) / double(making_.samples),
@@ -54,10 +58,10 @@ class GridViewRays {
     std::array<double, 2> camera_;
     ViewMaking making_;
     Vec3d centre_;
-    double camera_z_, start_z_;  // from the scene's centre
+    double camera_z_, start_z_;  // relative to the scene's centre
 };
 
-/// Depth below the camera in place of light.
+/// The depth below the camera, mm, in place of light.
 struct DepthLight {
     const ContentScene::Impl& scene;
     float below_camera;

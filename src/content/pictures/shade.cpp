@@ -1,3 +1,6 @@
+// Shading of a packet of rays. docs/model.md, "Shading". Corners of triangles are fetched lane by lane; the arithmetic is in
+// loops over all lanes without branches, which the compiler turns into SIMD.
+
 #include "content/pictures/scene.h"
 #include "simd/elementary.h"
 #include "simd/simd.h"
@@ -5,21 +8,19 @@
 #include <algorithm>
 #include <cmath>
 
-// Shading of a packet of rays. Corners of triangles are fetched lane by lane; the arithmetic is in loops over all lanes without
-// branches, which the compiler turns into SIMD.
 namespace lfdsim {
 namespace {
 
 constexpr int lanes = Lanes::count;
 
-/// The hit triangles: corner numbers and barycentric weights.
+/// The triangles that the rays hit: numbers of their corners and barycentric weights.
 struct TriangleHit {
     std::uint32_t triangle[lanes], corner[3][lanes];
     Lanes weight[3];
 
     TriangleHit(const Model& m, const RTCHit16& hit, const Lanes::Mask& valid) {
         for (int k = 0; k < lanes; ++k) {
-            triangle[k] = hit.primID[k] & std::uint32_t(valid.of[k]);  // without a hit: the first
+            triangle[k] = hit.primID[k] & std::uint32_t(valid.of[k]);  // of a lane without a hit: the first triangle
             weight[1].of[k] = hit.u[k];
             weight[2].of[k] = hit.v[k];
             weight[0].of[k] = 1 - hit.u[k] - hit.v[k];
@@ -51,6 +52,7 @@ void ContentScene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, co
                                Lanes* through) const {
     const Model& m = *model;
     const TriangleHit place(m, hit, valid);
+    // shine = a + s max(0, n.l); n need not be a unit vector after interpolation.
     Lanes n[3], shine;
     place.interpolate<3>(m.normals, n);
     for (int k = 0; k < lanes; ++k) {
@@ -68,6 +70,7 @@ void ContentScene::Impl::shade(const RTCHit16& hit, const Lanes::Mask& valid, co
 
     if (through) std::fill_n(through->of, lanes, 0.f);
     if (!textures.empty()) {
+        // The filter's level is the logarithm of the ray's width in texels.
         Lanes uv[2], level;
         place.interpolate<2>(m.uvs, uv);
         for (int k = 0; k < lanes; ++k) level.of[k] = texels_per_mm[place.triangle[k]];

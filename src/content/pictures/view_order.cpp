@@ -9,8 +9,9 @@
 namespace lfdsim {
 namespace {
 
-constexpr int block_side = 16, furthest_move = 16, most_columns = 512, enough_blocks = 12;
+constexpr int block_side = 16, furthest_move = 16, most_columns = 512, enough_blocks = 12;  // pixels; blocks that must agree
 
+/// A picture's brightness.
 struct Grey {
     int width, height;
     std::vector<float> light;
@@ -26,7 +27,8 @@ Grey grey(const Image& picture) {
     return grey;
 }
 
-/// How far a block moves from one picture to another along x or y, pixels to the right or down; nothing where that is not distinct.
+/// Returns how far a block moves from one picture to another along x or y, pixels to the right or down, by the least mean square
+/// difference with the minimum of a parabola; nothing if the match is not distinct.
 std::optional<double> move_of(const Grey& from, const Grey& to, int x0, int y0, bool along_x) {
     std::vector<double> difference;  // mean of squares, for each move
     for (int move = -furthest_move; move <= furthest_move; ++move) {
@@ -40,7 +42,7 @@ std::optional<double> move_of(const Grey& from, const Grey& to, int x0, int y0, 
     }
     const auto best = std::min_element(difference.begin(), difference.end());
     if (best == difference.begin() || best == difference.end() - 1) return {};
-    // Distinct: all moves that are not next to it are much worse, and by more than codes of 8 bits differ by rounding.
+    // Distinct: all moves that are not next to the best are much worse, and by more than the rounding of 8-bit codes.
     double second = INFINITY;
     for (auto other = difference.begin(); other != difference.end(); ++other)
         if (std::abs(other - best) > 2) second = std::min(second, *other);
@@ -49,16 +51,17 @@ std::optional<double> move_of(const Grey& from, const Grey& to, int x0, int y0, 
     return double(best - difference.begin()) - furthest_move + (bend > 0 ? 0.5 * (a - c) / bend : 0);
 }
 
-/// Pairs of moves that should have one sign.
+/// The correlation of pairs of moves that should have the same sign.
 class Agreement {
   public:
-    /// `pixels`: how many the second one's unit is worth.
+    /// Adds a pair of moves, pixels.
     void add(double a, double b) {
         ++count_;
         aa_ += a * a;
         bb_ += b * b;
         ab_ += a * b;
     }
+    /// Returns whether enough pairs certainly have opposite signs.
     bool opposite() const {
         return count_ >= enough_blocks && std::min(aa_, bb_) >= 0.25 * count_ && ab_ < -0.8 * std::sqrt(aa_ * bb_);
     }
@@ -81,7 +84,7 @@ OrderDoubt order_doubt(const ViewGrid& grid, const std::vector<Image>& views, co
     const Grey middle = grey(views[base]);
     struct Neighbour {
         Grey picture;
-        double step_pixels;  // of a point at kappa 1, to the right or down
+        double step_pixels;  // move of a point at kappa 1, to the right or down
     };
     std::optional<Neighbour> aside, below;
     if (grid.columns > 1) {
@@ -93,6 +96,7 @@ OrderDoubt order_doubt(const ViewGrid& grid, const std::vector<Image>& views, co
         below = {grey(views[index(column, j)]),
                  (grid.camera(column, j)[1] - grid.camera(column, row)[1]) * middle.height / grid.height_mm};
     }
+    // Each block's moves to both neighbours, compared with each other and with the depth map
     Agreement axes, with_depth;
     const int margin = furthest_move;
     for (int y = margin; y + block_side + margin <= middle.height; y += block_side)
@@ -101,7 +105,7 @@ OrderDoubt order_doubt(const ViewGrid& grid, const std::vector<Image>& views, co
                 return to ? move_of(middle, to->picture, x, y, along_x) : std::nullopt;
             };
             const std::optional<double> across = moved(aside, true), down = moved(below, false);
-            // A step of the cameras to the right and one down move a point alike.
+            // Cameras one step to the right and one step down move a point by equal amounts, relative to their steps.
             if (across && down)
                 axes.add(*across, *down * std::abs(aside->step_pixels / below->step_pixels) *
                                       (aside->step_pixels * below->step_pixels < 0 ? -1 : 1));
