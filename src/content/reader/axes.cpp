@@ -15,8 +15,9 @@ bool any_of(const std::string& format, std::initializer_list<const char*> names)
 }  // namespace
 
 AxesTurn turn(const aiScene& scene, const std::string& format, const std::string& up) {
-    // Assimp turns the first list to +y up itself; the second is +z up by specification or by its program. The rest is +y up: by
-    // specification (glTF, X3D, Collada after Assimp's own turn) or by custom (OBJ, PLY, OFF).
+    // Assimp rotates the formats of the first list to +y up itself; those of the second are +z up by specification or by their
+    // program. All others are +y up: by specification (glTF, X3D, Collada after Assimp's rotation) or by custom (OBJ, PLY, OFF).
+    // A file's "UpAxis", and before it `up`, take precedence.
     const bool turned =
         any_of(format, {"3D Studio", "Discreet 3DS", "ASE", "Industry Foundation", "Quake", "Doom 3", "Inter-Quake", "Unreal"});
     bool z_up = any_of(format, {"Stereolithography", "Blender", "Additive", "3mf", "Drawing Interchange", "TrueSpace", "Valve SMD",

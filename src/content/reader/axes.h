@@ -1,4 +1,4 @@
-// Which way is up? Formats differ, and Assimp turns some of them but not others.
+// Up axes of model formats: they differ, and Assimp rotates some formats but not others.
 #pragma once
 #include <assimp/scene.h>
 
@@ -6,7 +6,7 @@
 
 namespace lfdsim::reader {
 
-/// A quarter turn about x, or none, that leads from the axes Assimp hands over to +y up, front towards +z.
+/// A quarter turn about x, or none, from the axes in which Assimp gives a scene to +y up, front towards +z.
 class AxesTurn {
   public:
     enum Quarter { none, z_to_y, y_to_z };
@@ -27,7 +27,8 @@ class AxesTurn {
     Quarter quarter_;
 };
 
-/// `format`: the name of Assimp's importer; `up`: "y" or "z", the file's axis that points up, "" by format.
+/// Returns the turn for a scene. `format`: the name of Assimp's importer; `up`: "y" or "z", the file's axis that points up, "" by
+/// format.
 AxesTurn turn(const aiScene& scene, const std::string& format, const std::string& up);
 
 }  // namespace lfdsim::reader

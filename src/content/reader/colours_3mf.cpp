@@ -9,7 +9,7 @@
 namespace lfdsim::reader {
 namespace {
 
-// The archive's current file, as far as it is needed.
+// Returns the archive's current file, about 2^28 bytes of it at most.
 std::string text_of_current(unzFile archive) {
     constexpr std::size_t most = std::size_t(1) << 28, step = std::size_t(1) << 16;
     std::string text;
@@ -24,7 +24,7 @@ std::string text_of_current(unzFile archive) {
     return text;
 }
 
-// Whether any element of this name has this attribute.
+// Returns whether any element of a name has an attribute.
 bool has_attribute(const std::string& text, const std::string& element, const std::string& attribute) {
     for (std::size_t at = text.find(element); at != std::string::npos; at = text.find(element, at + 1)) {
         const std::size_t found = text.find(attribute, at);

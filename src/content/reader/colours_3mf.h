@@ -1,4 +1,4 @@
-// What Assimp 5.2 passes over in 3MF files.
+// Features of 3MF files that Assimp 5.2 ignores.
 #pragma once
 #include "content/reader/limits/not_shown.h"
 
@@ -6,7 +6,7 @@
 
 namespace lfdsim::reader {
 
-/// Notes colours of colour groups, materials of single triangles, and parts that lie in other files of the archive.
+/// Notes colours of colour groups, materials of single triangles, and parts in other files of the archive: they are not shown.
 void note_3mf(const std::filesystem::path&, NotShown&);
 
 }  // namespace lfdsim::reader

@@ -1,3 +1,5 @@
+// Model files by Assimp, with this program's loaders for glTF 2.0 and PLY: reading, repairs, and conversion to a Model.
+
 #include "content/reader/import.h"
 
 #include "base/counted.h"
@@ -31,13 +33,13 @@
 namespace lfdsim::reader {
 namespace {
 
-// A fold sharper than this stays an edge when the file has no normals.
+// A fold sharper than this, in degrees, remains an edge if the file has no normals.
 constexpr float crease_deg = 60;
 
-// Everything comes as triangles in one frame: node transforms applied, instances copied, points and lines dropped.
+// Post-processing gives triangles in one frame: node transforms are applied, instances copied, points and lines removed.
 constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices | aiProcess_GenUVCoords |
                            aiProcess_TransformUVCoords;
-constexpr float grey = 0.5f;  // linear light, of what cannot be shown as it is
+constexpr float grey = 0.5f;  // linear light of surfaces that cannot be shown as they are
 
 Wrap wrap(aiTextureMapMode mode) {
     switch (mode) {
@@ -51,12 +53,14 @@ Wrap wrap(aiTextureMapMode mode) {
     }
 }
 
+// Returns whether a material emits light.
 bool shines(const aiMaterial& material) {
     aiColor4D light(0, 0, 0, 0);
     material.Get(AI_MATKEY_COLOR_EMISSIVE, light);
     return light.r > 0 || light.g > 0 || light.b > 0;
 }
 
+// The conversion of Assimp's meshes and materials to a Model.
 class Conversion {
   public:
     Conversion(const aiScene& scene, const Folder& folder, const std::string& format, const AxesTurn& turn,
@@ -65,6 +69,7 @@ class Conversion {
         linear_ = format.starts_with("glTF");
     }
 
+    // Converts all meshes. Throws std::runtime_error if there are no triangles.
     Model run() {
         for (unsigned m = 0; m < scene_.mNumMeshes; ++m) add(*scene_.mMeshes[m]);
         model_.textures = std::move(textures_.textures);
@@ -83,7 +88,7 @@ class Conversion {
     }
 
   private:
-    // Some loaders (Blender) hand over colours where the file has none, all black.
+    // Returns whether a mesh has vertex colours. Some loaders (Blender's) give colours, all black, if the file has none.
     bool coloured(const aiMesh& mesh) const {
         if (!mesh.HasVertexColors(0)) return false;
         const aiColor4D* first = mesh.mColors[0];
@@ -91,17 +96,20 @@ class Conversion {
                std::any_of(first, first + mesh.mNumVertices, [](const aiColor4D& c) { return c.r > 0 || c.g > 0 || c.b > 0; });
     }
 
+    // Returns a component of a colour of the file in linear light, 0 to 1.
     float light(float colour) const {
         const double c = std::isfinite(colour) ? std::clamp(double(colour), 0., 1.) : 0;
         return float(linear_ ? c : srgb_to_linear(c));
     }
 
-    // glTF's colours are factors in linear light, multiplied with texture and vertex colours. Elsewhere a colour is meant for a
-    // screen (sRGB), and a texture or vertex colours stand in its place: formats and exporters differ in what they multiply,
-    // and loaders fill in greys of their own.
+    // Returns the index of a mesh's material, and in `channel` the texture coordinates that it uses. glTF's colours are factors
+    // in linear light, multiplied with texture and vertex colours. In other formats a colour is meant for a screen (sRGB), and a
+    // texture or vertex colours replace it: formats and exporters differ in what they multiply, and loaders fill in greys of
+    // their own.
     std::uint32_t material(const aiMesh& mesh, int& channel) {
         const auto key = std::tuple(mesh.mMaterialIndex, mesh.HasTextureCoords(0), coloured(mesh));
         const aiMaterial& from = *scene_.mMaterials[mesh.mMaterialIndex];
+        // The texture is that of the base colour (glTF), else that of the diffuse colour.
         Material to;
         aiString name;
         unsigned uv = 0;
@@ -121,6 +129,7 @@ class Conversion {
         to.wrap_v = wrap(modes[1]);
         int shading = 0;
         if (linear_ && from.Get(AI_MATKEY_SHADING_MODEL, shading) == aiReturn_SUCCESS) to.lit = shading != aiShadingMode_Unlit;
+        // Grey replaces a texture that is missing; outside of glTF a texture or vertex colours replace the colour.
         aiColor4D colour(1, 1, 1, 1);
         if (linear_ || (to.texture < 0 && !coloured(mesh))) {
             if (from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
@@ -129,6 +138,7 @@ class Conversion {
         for (unsigned c = 0; c < 3; ++c) to.colour[c] = light(colour[c]) * (wants_texture && to.texture < 0 ? grey : 1);
         const auto [entry, fresh] = known_.try_emplace(key, std::uint32_t(model_.materials.size()));
         if (fresh) model_.materials.push_back(to);
+        // What is not shown is noted.
         float opacity = 1;
         aiString alpha("OPAQUE");
         from.Get(AI_MATKEY_OPACITY, opacity);
@@ -143,20 +153,21 @@ class Conversion {
 
     static bool has(const aiMaterial& material, aiTextureType type) { return material.GetTextureCount(type) > 0; }
 
-    // Greys are what exporters and loaders fill in.
+    // Returns whether a material's colour would tint its texture. Greys are what exporters and loaders fill in.
     static bool is_tinted(const aiMaterial& material) {
         aiColor4D c(1, 1, 1, 1);
         material.Get(AI_MATKEY_COLOR_DIFFUSE, c);
         return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b}) > 0.01f;
     }
 
-    /// What of a mesh its vertices take: texture coordinates of this channel, moved in this way, and colours.
+    /// What a mesh's vertices take from it: texture coordinates of a channel, with a tiling, and colours.
     struct Attributes {
         int channel;
         bool coloured;
         Tiling tiling;
     };
 
+    // Adds the triangles of a mesh.
     void add(const aiMesh& mesh) {
         if (!(mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || !mesh.mVertices) return;
         if (mesh.mMaterialIndex >= scene_.mNumMaterials)
@@ -186,7 +197,7 @@ class Conversion {
         }
     }
 
-    // A face with vertices of its own.
+    // Adds a face with separate vertices and the face's normal, for meshes without normals.
     void add_flat(const aiMesh& mesh, const aiFace& face, const Attributes& of) {
         const aiVector3D* const p = mesh.mVertices;
         const unsigned* const at = face.mIndices;
@@ -211,7 +222,8 @@ class Conversion {
         for (unsigned k = 0; k < 2; ++k) model_.uvs.push_back(float(of.tiling.offset[k] + of.tiling.scale[k] * double(uv[k])));
     }
 
-    // Some loaders find no colours; a black model on black would look like a fault of the display.
+    // Shows a model in grey if all of its materials are black: some loaders find no colours, and a black model on black would
+    // look like a fault of the display.
     void show_black() {
         const auto black = [](const Material& m) {
             return m.texture < 0 && std::max({m.colour[0], m.colour[1], m.colour[2]}) < 1e-3f;
@@ -235,7 +247,8 @@ class Conversion {
     bool transparent_ = false;
 };
 
-// Flipped, broken or missing normals would leave holes in the shading.
+// Replaces normals that are missing or broken (of a length not between 1/2 and 2) by those of faces: they would leave holes in
+// the shading.
 void mend_normals(Model& model) {
     const auto bad = [&](std::uint32_t v) {
         const float* n = &model.normals[3 * std::size_t(v)];
@@ -257,6 +270,7 @@ void mend_normals(Model& model) {
     }
 }
 
+// Notes animations, skins, morph targets, points and lines, which are not shown.
 void note_deformations(const aiScene& scene, NotShown& not_shown) {
     if (scene.mNumAnimations > 0) not_shown.add("animations");
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -267,14 +281,15 @@ void note_deformations(const aiScene& scene, NotShown& not_shown) {
     }
 }
 
-// Assimp joins vertices nearer to each other than 1e-5, whatever their colours; its own loaders give most corners of faces vertices
-// of their own.
+// Returns whether Assimp may join vertices. It joins those nearer to each other than 1e-5, whatever their colours; its own
+// loaders give most corners of faces separate vertices.
 bool may_join(const aiScene& scene, const std::string& format) {
     if (format.starts_with(GltfLoader::name) || format == PlyLoader::name) return false;
     return std::none_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
                         [](const aiMesh* mesh) { return mesh->HasVertexColors(0); });
 }
 
+// Removes the loaders whose names begin with `loader_name`.
 void take_away(Assimp::Importer& importer, const char* loader_name) {
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
         if (!std::string(importer.GetImporterInfo(i)->mName).starts_with(loader_name)) continue;
@@ -284,12 +299,13 @@ void take_away(Assimp::Importer& importer, const char* loader_name) {
     }
 }
 
-/// Assimp with the loaders of this program in place of some of its own.
+/// Puts this program's loaders in place of some of Assimp's.
 void choose_loaders(Assimp::Importer& importer, const std::filesystem::path& file, Folder& folder, NotShown& not_shown) {
     take_away(importer, "glTF2 Importer");
     take_away(importer, "Stanford Polygon Library");
-    auto* const gltf = new GltfLoader(folder, not_shown);                                   // the importer's, as the other
-    if (gltf->CanRead(file.string(), &folder, true)) take_away(importer, "glTF Importer");  // of version 1, which would try first
+    auto* const gltf = new GltfLoader(folder, not_shown);  // owned by the importer, like the PlyLoader
+    // Assimp's loader of version 1 would otherwise try first.
+    if (gltf->CanRead(file.string(), &folder, true)) take_away(importer, "glTF Importer");
     importer.RegisterLoader(gltf);
     importer.RegisterLoader(new PlyLoader(not_shown));
 }
@@ -309,7 +325,7 @@ std::string bytes_of(const std::string& file) {
 
 Model import(const std::filesystem::path& file, const std::string& up) {
     Assimp::Importer importer;
-    auto* folder = new Folder(file);  // the importer's from here on
+    auto* folder = new Folder(file);  // owned by the importer from here on
     importer.SetIOHandler(folder);
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -322,16 +338,17 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         return {};
     };
     choose_loaders(importer, file, *folder, not_shown);
-    auto* warnings = new Warnings;  // the logger's, likewise
+    auto* warnings = new Warnings;  // owned by the logger
     Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
     Assimp::DefaultLogger::get()->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
 
+    // The scene is loaded, repaired as loaded, and then post-processed.
     const aiScene* scene = importer.ReadFile(file.string(), 0);
     const aiImporterDesc* used = importer.GetImporterInfo(std::size_t(importer.GetPropertyInteger("importerIndex", 0)));
     const std::string format = used ? used->mName : "";
     const bool is_3mf = format.starts_with("3mf");
     if (scene && scene->mRootNode) {
-        auto& loaded = const_cast<aiScene&>(*scene);  // the importer's own
+        auto& loaded = const_cast<aiScene&>(*scene);  // owned by the importer
         repair(loaded, file, format);
         note_deformations(loaded, not_shown);
         if (is_3mf) note_3mf(file, not_shown);

@@ -1,4 +1,4 @@
-// Reads a model file by Assimp and converts it.
+// Reading of a model file by Assimp, and its conversion.
 #pragma once
 #include "content/models/model.h"
 
@@ -7,7 +7,8 @@
 
 namespace lfdsim::reader {
 
-/// `up`: "y" or "z", the file's axis that points up; "" by format. Throws std::runtime_error that says what is wrong.
+/// Returns a file's model. `up`: "y" or "z", the file's axis that points up; "" by format. Throws std::runtime_error, which says
+/// what is wrong.
 Model import(const std::filesystem::path& file, const std::string& up);
 
 }  // namespace lfdsim::reader

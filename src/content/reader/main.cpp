@@ -15,6 +15,7 @@
 
 namespace {
 
+/// Writes a model to standard output: an Io for transfer().
 class ModelWriter {
   public:
     template <class T>
@@ -42,6 +43,7 @@ class ModelWriter {
 
 namespace {
 
+// Does what the command line says, writes the reply, and ends the process.
 int answer(int count, char** arguments) {
     if (count != 6) {
         std::fputs("lfdsim-model-reader is started by lfdsim, not by hand\n", stderr);

@@ -15,10 +15,11 @@ double largest_of(const Place& p) { return std::max({std::abs(p.x), std::abs(p.y
 struct MeshExtent {
     BoxMiddle middle;   // in the scene's coordinates
     double vertex = 0;  // the largest number of a vertex, in its node's coordinates
-    // The largest numbers of nodes' own translations. The rounding of one alone moves everything alike.
+    // The largest and the second largest number of nodes' translations: the rounding of a single one moves everything alike.
     double translation = 0, second_translation = 0;
 };
 
+// Adds the meshes of a node and of those below it. Throws std::runtime_error for nodes too deep.
 void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4t<double>& above, MeshExtent& all, int depth = 0) {
     constexpr int deepest = 1000;
     if (depth > deepest) throw std::runtime_error("has nodes more than 1000 deep");
@@ -55,7 +56,7 @@ void move_to_origin(aiScene& scene, NotShown& not_shown) {
     aiMatrix4x4 back;
     aiMatrix4x4::Translation(to_float(offset * -1.), back);
     scene.mRootNode->mTransformation = back * scene.mRootNode->mTransformation;
-    // Half of a float's last bit, as a share of the size.
+    // Half of a float's last bit, as a share of the model's size
     const double share = std::ldexp(std::max(extent.vertex, extent.second_translation), -24) / extent.middle.size();
     if (share > 1e-6) not_shown.add(details_below(share));
 }

@@ -1,4 +1,4 @@
-// Scenes as Assimp has loaded them, in floats, far from their origins.
+// Scenes that Assimp has loaded in floats, far from their origins.
 #pragma once
 #include "content/reader/limits/not_shown.h"
 
@@ -6,8 +6,8 @@
 
 namespace lfdsim::reader {
 
-/// Moves a scene to the origin before its nodes' transformations are applied in floats, where it lies far from there, and notes
-/// what floats have rounded already.
+/// Moves a scene that lies far from its origin there, before its nodes' transformations are applied in floats, and notes what
+/// floats have already rounded.
 void move_to_origin(aiScene&, NotShown&);
 
 }  // namespace lfdsim::reader

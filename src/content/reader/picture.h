@@ -6,8 +6,8 @@
 
 namespace lfdsim::reader {
 
-/// A rectangle of height 1 about the origin, facing +z, that shows the picture in its own light, through which one sees as its
-/// alpha says. Throws std::runtime_error that says why the file cannot be read.
+/// Returns a rectangle of height 1 about the origin, facing +z, that shows a picture file without shading; its alpha is the share
+/// of light that it adds and hides. Throws std::runtime_error, which says why the file cannot be read.
 Model picture(const std::filesystem::path&);
 
 }  // namespace lfdsim::reader

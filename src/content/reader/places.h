@@ -1,4 +1,4 @@
-// Places in double precision, until they are near enough to the origin to become floats.
+// Positions in double precision, until they are near enough to the origin to become floats.
 #pragma once
 #include <assimp/types.h>
 
@@ -10,8 +10,8 @@ namespace lfdsim::reader {
 
 using Place = aiVector3t<double>;
 
-/// The middle of a box about places, which are taken relative to it where it lies further from the origin than the box is long:
-/// there a float would round by more than about 1e-7 of the size.
+/// The middle of the box about positions. Positions are taken relative to it if it lies farther from the origin than the box is
+/// long: there a float would round by more than about 1e-7 of the size.
 class BoxMiddle {
   public:
     void add(const Place& p) {
@@ -21,13 +21,13 @@ class BoxMiddle {
             high_[k] = std::max(high_[k], p[k]);
         }
     }
-    /// What is taken off; (0, 0, 0) where that is not needed.
+    /// Returns the position to subtract; (0, 0, 0) if that is not needed.
     Place offset() const {
         const Place middle = (low_ + high_) * 0.5;
         const bool far = middle.Length() > size();  // false without places
         return far && std::isfinite(middle.Length()) ? middle : Place();
     }
-    /// The diagonal of the box.
+    /// Returns the diagonal of the box.
     double size() const { return (high_ - low_).Length(); }
 
   private:

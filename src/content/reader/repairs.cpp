@@ -9,8 +9,8 @@
 namespace lfdsim::reader {
 namespace {
 
-// glTF 1.0: a node's matrix is translation x rotation x scale, but the loader applies the translation first and so rotates it:
-// a truck loses its wheels. Its linear part is right; the translation is put back as the file gives it.
+// Corrects nodes of glTF 1.0: a node's matrix is translation x rotation x scale, but the loader applies the translation first and
+// so rotates it (a truck loses its wheels). The linear part is right; the translation is set to that of the file.
 void place_gltf1_nodes(aiScene& scene, const std::filesystem::path& file) {
     std::ifstream text(file);
     const auto description = nlohmann::json::parse(text, nullptr, false);
@@ -26,8 +26,8 @@ void place_gltf1_nodes(aiScene& scene, const std::filesystem::path& file) {
     }
 }
 
-// Blender: the normals are those of vertices, even where faces are flat, so that cubes look like pillows. Without them new ones
-// are computed, with creases.
+// Removes the normals of Blender's files: they are those of vertices even where faces are flat, so that cubes look like pillows.
+// New ones are then computed, with creases.
 void drop_normals(aiScene& scene) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         delete[] scene.mMeshes[m]->mNormals;

@@ -25,13 +25,14 @@
 namespace lfdsim::reader {
 namespace {
 
-// stb's own words; where it gets no memory, it says so by one, or nothing.
+// Returns stb's reason why a picture was not decoded. If it gets no memory it says so by one word, or nothing.
 std::string failure() {
     const char* const reason = std::exchange(stbi__g_failure_reason, nullptr);
     if (!reason) return "it takes more memory than there is, or is damaged";
     return reason == std::string_view("outofmem") ? "it takes more memory than there is" : reason;
 }
 
+// Copies stb's texels and frees them.
 Texture adopt(stbi_uc* pixels, int width, int height) {
     Texture t{width, height, {}};
     t.rgba.assign(pixels, pixels + std::size_t(width) * height * 4);
@@ -39,7 +40,7 @@ Texture adopt(stbi_uc* pixels, int width, int height) {
     return t;
 }
 
-// Assimp keeps either a compressed file (height 0, width its bytes) or BGRA texels.
+// Decodes an embedded texture: Assimp keeps either a compressed file (height 0, width its bytes) or BGRA texels.
 bool decode(const aiTexture& embedded, Texture& out) {
     if (embedded.mHeight == 0) {
         int width, height, channels;
@@ -59,7 +60,7 @@ bool decode(const aiTexture& embedded, Texture& out) {
     return true;
 }
 
-// Why the picture in these bytes was not decoded.
+// Returns why the picture in these bytes was not decoded: its format is not read, or stb's reason.
 std::string reason(std::string_view bytes) {
     constexpr std::pair<std::string_view, const char*> others[] = {{"WEBP", "WebP (in glTF by EXT_texture_webp)"},
                                                                    {"KTX 2", "KTX2 (in glTF by KHR_texture_basisu)"},

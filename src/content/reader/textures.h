@@ -11,22 +11,23 @@
 
 namespace lfdsim::reader {
 
-/// A picture file's texels. Throws std::runtime_error that says why it cannot be decoded.
+/// Returns a picture file's texels. Throws std::runtime_error, which says why it cannot be decoded.
 Texture read_texture(const std::filesystem::path&);
 
-/// Whether any texel is not opaque.
+/// Returns whether any texel is not opaque.
 bool has_alpha(const Texture&);
 
+/// The textures of a scene, each decoded once.
 class Textures {
   public:
     Textures(const aiScene& scene, const Folder& folder) : scene_(scene), folder_(folder) {}
 
-    /// Index of the texture that the model calls `name`; -1, with a note, when it is missing or cannot be decoded.
+    /// Returns the index of the texture that the model calls `name`; -1, with a note, if it is missing or cannot be decoded.
     int index(const std::string& name);
 
-    /// Notes, once for each texture and reason, that it is not shown, and what it covers in grey.
+    /// Notes, once for each texture and reason, that a texture is not shown and its surfaces are grey.
     void leave_out(const std::string& name, const std::string& why);
-    /// These notes; of many the first, and how many more there are.
+    /// Returns these notes; of more than six the first five, and how many more there are.
     std::vector<std::string> notes() const;
 
     std::vector<Texture> textures;

@@ -1,4 +1,4 @@
-// Meshes that KHR_draco_mesh_compression packs.
+// Meshes that are compressed by KHR_draco_mesh_compression.
 #pragma once
 #include "content/reader/gltf/gltf_file.h"
 
@@ -13,15 +13,17 @@ class Mesh;
 
 namespace lfdsim::reader {
 
+/// A decompressed mesh.
 class DracoMesh {
   public:
     /// Throws std::runtime_error for damaged bytes.
     explicit DracoMesh(std::string_view bytes);
     ~DracoMesh();
 
-    /// The attribute that the extension calls `id`, which `accessor` describes.
+    /// Returns the attribute that the extension calls `id` and `accessor` describes. Throws std::runtime_error if it is missing
+    /// or damaged.
     AccessorValues numbers(std::uint32_t id, const Item& accessor) const;
-    /// Three for each triangle.
+    /// Returns three vertex indices for each triangle.
     std::vector<double> indices() const;
 
   private:

@@ -40,6 +40,7 @@ std::size_t width_of(const Item& type) {
     type.fail("is not a type of elements");
 }
 
+// Returns a number of a component type.
 double component(std::size_t type, const char* bytes) {
     switch (type) {
         case 5120:
@@ -57,7 +58,7 @@ double component(std::size_t type, const char* bytes) {
     }
 }
 
-// RFC 4648; what is no digit is skipped, as browsers do with line breaks.
+// Returns the bytes of base64 text (RFC 4648); characters that are no digits are skipped, as browsers do with line breaks.
 std::string from_base64(std::string_view text) {
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3);
@@ -92,6 +93,7 @@ int hex_digit(char c) {
     return -1;
 }
 
+// The parts of a file; a text file is all description.
 struct Chunks {
     std::string_view description, binary;
 };
@@ -115,7 +117,7 @@ Chunks chunks_of(std::string_view file) {
 
 }  // namespace
 
-/// Where the elements of an accessor lie in the bytes of a view.
+/// The positions of an accessor's elements in the bytes of a view.
 struct GltfFile::Layout {
     std::size_t type, component_bytes, width, offset, stride, count;
     const Item* accessor;
@@ -220,7 +222,7 @@ AccessorValues GltfFile::numbers(const Item& accessor) {
     const auto from = named(accessor.at("bufferView"), "bufferViews");
     const Item sparse = accessor.at("sparse");
     if (!from && !sparse.is_there()) accessor.fail("has no data");
-    // Before memory is taken for what the file claims.
+    // Sizes that a file claims are checked before memory is allocated for them.
     constexpr std::size_t most_zeros = std::size_t(1) << 26;
     if (!from && at.count > most_zeros) accessor.fail("has more than 2^26 elements and no bytes");
     std::string_view bytes;
@@ -237,7 +239,7 @@ AccessorValues GltfFile::numbers(const Item& accessor) {
     return out;
 }
 
-// Elements that replace some of an accessor's.
+// Replaces some of an accessor's elements by its sparse ones.
 void GltfFile::replace(AccessorValues& out, const Layout& at, const Item& sparse) {
     Layout indices = at, values = at;
     indices.count = values.count = sparse.at("count").whole(0);

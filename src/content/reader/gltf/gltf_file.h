@@ -1,5 +1,5 @@
-// glTF 2.0 files, text or binary: the description, and the bytes and numbers that it names. Everything is checked, as a file may
-// lie.
+// glTF 2.0 files, text or binary: the description, and the bytes and numbers to which it refers. Everything is checked, since a
+// file may be damaged or hostile.
 #pragma once
 #include "content/reader/gltf/gltf_item.h"
 
@@ -11,35 +11,39 @@
 
 namespace lfdsim::reader {
 
-/// What an accessor names, in double precision: `count` elements of `width` numbers; normalized integers as the fractions they
-/// mean.
+/// The numbers of an accessor in double precision: `count` elements of `width` numbers; normalized integers as the fractions that
+/// they mean.
 struct AccessorValues {
     std::size_t width = 0, count = 0;
     std::vector<double> all;
 
+    /// Returns the first number of an element.
     const double* operator[](std::size_t i) const { return &all[i * width]; }
-    /// Integers become what they mean by their accessor: fractions, if it says so.
+    /// Turns integers into fractions if their accessor says so (glTF 2.0, 3.6.2.2).
     void normalize(const Item& accessor);
 };
 
+/// A file with its buffers, which are read when needed. Its functions throw std::runtime_error, which says what is wrong and
+/// where.
 class GltfFile {
   public:
-    /// The bytes of a file beside the model; none where it is not there.
+    /// A function that returns the bytes of a file beside the model; nothing if it does not exist.
     using Open = std::function<std::optional<std::string>(const std::string& name)>;
 
-    /// Throws std::runtime_error, as everything here, that says what is wrong and where.
+    /// Parses a file's bytes.
     GltfFile(std::string bytes, Open open);
     GltfFile(const GltfFile&) = delete;
 
     const Item& root() const { return root_; }
-    /// The element of a list of the file ("meshes") whose number `number` is; none where that is null.
+    /// Returns the element of a list of the file ("meshes") with the number `number`; nothing if that is null.
     std::optional<Item> named(const Item& number, const char* list) const;
 
+    /// Return the bytes of a buffer view, and the numbers of an accessor with its sparse replacements.
     std::string_view view(const Item& buffer_view);
     AccessorValues numbers(const Item& accessor);
-    /// What a data: URI holds; none of others.
+    /// Returns the content of a data: URI; nothing for others.
     static std::optional<std::string> data_of(const std::string& uri);
-    /// The file that a URI names: %20 and the like stand for bytes.
+    /// Returns the file that a URI names, with %20 and the like replaced by their bytes.
     static std::string file_name(const std::string& uri);
 
   private:

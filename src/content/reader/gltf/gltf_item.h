@@ -1,4 +1,4 @@
-// Values of a glTF description with their places there, which messages name: "nodes[3].mesh".
+// Values of a glTF description with their paths in it, for messages: "nodes[3].mesh".
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace lfdsim::reader {
 
-/// A value or the lack of one (null). What has another type than asked for is refused by std::runtime_error.
+/// A value, or null if it is missing. Functions throw std::runtime_error for values of another type than requested.
 class Item {
   public:
     using Json = nlohmann::json;
@@ -19,7 +19,7 @@ class Item {
     bool is_there() const { return !json_->is_null(); }
     bool has(const char* key) const { return at(key).is_there(); }
 
-    /// A member, null where there is none.
+    /// Returns a member; null if there is none.
     Item at(const char* key) const {
         static const Json none;
         if (json_->is_null()) return Item(none, inside(key));
@@ -27,7 +27,7 @@ class Item {
         const auto found = json_->find(key);
         return Item(found == json_->end() ? none : *found, inside(key));
     }
-    /// An element of a list; size() of null is 0.
+    /// Returns an element of a list; the size() of null is 0.
     Item operator[](std::size_t i) const { return Item((*json_)[i], where_ + "[" + std::to_string(i) + "]"); }
     std::size_t size() const {
         if (json_->is_null()) return 0;
@@ -35,6 +35,7 @@ class Item {
         return json_->size();
     }
 
+    /// Return the value, or `otherwise` (for a text: empty) if it is missing.
     double number(double otherwise) const {
         if (!is_there()) return otherwise;
         const double x = json_->is_number() ? json_->get<double>() : std::nan("");

@@ -13,13 +13,14 @@
 namespace lfdsim::reader {
 namespace {
 
-// What a file may require: these are shown.
+// Extensions that a file may require and that are read
 constexpr const char* shown_extensions[] = {
     "KHR_mesh_quantization",   "KHR_draco_mesh_compression",          "KHR_texture_transform", "KHR_materials_unlit",
     "EXT_mesh_gpu_instancing", "KHR_materials_pbrSpecularGlossiness", "KHR_node_visibility"};
-// Shapes are right without these: gloss, lights, other choices of materials, shaders, facts about the file.
+// Extensions without which shapes are right: gloss, lights, other choices of materials, shaders, metadata
 constexpr const char* harmless_extensions[] = {"KHR_materials_", "KHR_technique", "KHR_lights_", "EXT_lights_", "KHR_xmp"};
 
+// Throws std::runtime_error if a file requires an extension without which it would be shown wrongly.
 void check_extensions(const Item& required, NotShown& not_shown) {
     for (std::size_t i = 0; i < required.size(); ++i) {
         const std::string name = required[i].text();
@@ -32,6 +33,7 @@ void check_extensions(const Item& required, NotShown& not_shown) {
     }
 }
 
+// Returns a skin's joint matrices: each joint's transform times its inverse bind matrix.
 std::vector<Matrix> joints_of(GltfFile& file, const GltfNodes& nodes, const Item& skin) {
     std::vector<Matrix> joints;
     const Item numbers = skin.at("joints");
@@ -53,7 +55,8 @@ std::vector<Matrix> joints_of(GltfFile& file, const GltfNodes& nodes, const Item
     return joints;
 }
 
-// EXT_mesh_gpu_instancing: the mesh stands wherever its lists say, in the node's coordinates.
+// Returns the transforms of a node's mesh into the scene: with EXT_mesh_gpu_instancing one for each entry of its lists, which are
+// in the node's coordinates, else the node's.
 std::vector<Matrix> instances_of(GltfFile& file, const Item& instancing, const Matrix& world) {
     if (!instancing.is_there()) return {world};
     struct {
@@ -93,7 +96,7 @@ void hand_over(std::vector<std::unique_ptr<T>>& from, T**& to, unsigned& count) 
     for (auto& one : from) to[count++] = one.release();
 }
 
-// The scene's one node has all meshes.
+// Moves all meshes to the scene's only node.
 void fill(aiScene& scene, GltfMeshes& read) {
     BoxMiddle middle;
     for (const Piece& piece : read.pieces)
@@ -144,7 +147,8 @@ void read_gltf(std::string bytes, const GltfFile::Open& open, aiScene& scene, No
     fill(scene, meshes);
 }
 
-// All of these endings but glTF 1.0, which Assimp reads; others by their first bytes.
+// Decides by content: a binary file, or a JSON description, of another version than 1 (which Assimp reads); by the ending if a
+// description has no version.
 bool GltfLoader::CanRead(const std::string& file, Assimp::IOSystem* io, bool) const {
     const std::string bytes = whole_file(*io, file).value_or("");
     if (bytes.starts_with("glTF")) return bytes.size() >= 8 && bytes[4] != 1;

@@ -1,5 +1,5 @@
-// glTF 2.0 in Assimp's place: version 5.2 copies integers into floats as they are, and knows of no skins, morph weights or
-// instances.
+// A loader of glTF 2.0 in place of Assimp's, whose version 5.2 copies integers into floats as they are, and ignores skins, morph
+// weights and instances.
 #pragma once
 #include "content/reader/gltf/gltf_file.h"
 #include "content/reader/limits/folder.h"
@@ -10,9 +10,9 @@
 
 namespace lfdsim::reader {
 
-/// Fills an empty scene with the meshes of a file's scene as it stands without animations: every mesh in place, skins and morph
-/// targets applied, instances copied, the middle taken off what is far from the origin. Throws std::runtime_error that says what is
-/// wrong, or which extension the file requires that is not read.
+/// Fills an empty scene with the meshes of a file's scene, without animations: every mesh in its position, with skins and morph
+/// targets applied and instances copied; positions far from the origin are taken relative to their middle. Throws
+/// std::runtime_error, which says what is wrong, or which required extension is not read.
 void read_gltf(std::string bytes, const GltfFile::Open& open, aiScene&, NotShown&);
 
 class GltfLoader : public Assimp::BaseImporter {

@@ -24,7 +24,7 @@ int mode_of(const Item& wrap) {
     }
 }
 
-// Compressed as in its file: height 0, width its bytes.
+// Returns a picture as compressed in its file: height 0, width its bytes.
 std::unique_ptr<aiTexture> embedded_picture(std::string_view bytes) {
     auto texture = std::make_unique<aiTexture>();
     texture->mHeight = 0;
@@ -37,6 +37,7 @@ std::unique_ptr<aiTexture> embedded_picture(std::string_view bytes) {
 }  // namespace
 
 std::array<double, 2> UvTransform::operator()(double u, double v) const {
+    // R = (c, s; -s, c)
     const double x = scale[0] * u, y = scale[1] * v, c = std::cos(rotation), s = std::sin(rotation);
     return {offset[0] + c * x + s * y, offset[1] - s * x + c * y};
 }
@@ -73,7 +74,8 @@ unsigned GltfMaterials::index(const Item& number, NotShown& not_shown) {
     return entry->second;
 }
 
-// A picture in a format that may be read comes before those of extensions. Of these only WebP's are read (textures.cpp).
+// Adds a material's texture. A picture in a format of the specification comes before those of extensions, which are not read
+// (textures.cpp names their format in a note).
 void GltfMaterials::add_texture(const Item& use, aiMaterial& to) {
     const auto texture = file_.named(use.at("index"), "textures");
     if (!texture) return;
@@ -94,7 +96,7 @@ void GltfMaterials::add_texture(const Item& use, aiMaterial& to) {
     }
 }
 
-// "*0" and so on of embedded ones, "" of none.
+// Returns an image's name: "*0" and so on of embedded ones, "" of none.
 std::string GltfMaterials::name_of_image(const Item& number) {
     const auto image = file_.named(number, "images");
     if (!image) return {};

@@ -1,4 +1,4 @@
-// The materials of a glTF file as Assimp keeps materials.
+// The materials of a glTF file, as Assimp stores materials.
 #pragma once
 #include "content/reader/gltf/gltf_file.h"
 #include "content/reader/limits/not_shown.h"
@@ -12,25 +12,26 @@
 
 namespace lfdsim::reader {
 
-/// KHR_texture_transform: (u', v') = offset + R (scale (u, v)), v downwards; R turns counter-clockwise as the picture is seen.
+/// KHR_texture_transform: (u', v') = offset + R (scale (u, v)), v downwards; R rotates counter-clockwise as the picture is seen.
 struct UvTransform {
     std::array<double, 2> offset{0, 0}, scale{1, 1};
-    double rotation = 0;
+    double rotation = 0;  // radians
 
     std::array<double, 2> operator()(double u, double v) const;
 };
 
-/// Which texture coordinates a material's texture takes.
+/// The texture coordinates that a material's texture uses.
 struct TextureUse {
-    std::string channel;  // "TEXCOORD_0", "" without a texture
+    std::string channel;  // "TEXCOORD_0"; "" without a texture
     UvTransform transform;
 };
 
+/// The materials and embedded pictures of a file, each converted once.
 class GltfMaterials {
   public:
     explicit GltfMaterials(GltfFile& file) : file_(file) {}
 
-    /// The number of a primitive's material, null for the default one, in `all`.
+    /// Returns the index in `all` of a primitive's material; a null number is the default material.
     unsigned index(const Item& number, NotShown&);
     const TextureUse& texture_use(unsigned index) const { return uses_[index]; }
 

@@ -3,7 +3,8 @@
 namespace lfdsim::reader {
 namespace {
 
-// A linear map's effect on normals: the inverse transpose times a positive number, from the cofactors, which exist for any map.
+// Returns a normal transformed by a linear map: by the inverse transpose times a positive number, from the cofactors, which exist
+// for any map.
 Place turned_normal(const Matrix& m, const Place& n) {
     const Place a(m.a1, m.b1, m.c1), b(m.a2, m.b2, m.c2), c(m.a3, m.b3, m.c3);
     const Place turned = (b ^ c) * n.x + (c ^ a) * n.y + (a ^ b) * n.z;
@@ -11,7 +12,7 @@ Place turned_normal(const Matrix& m, const Place& n) {
     return size > 0 ? turned * (sign / size) : Place();
 }
 
-// A mirror image's triangles would be seen from behind.
+// Returns whether a map mirrors: triangles are then turned over, or they would be seen from behind.
 bool mirrors(const Matrix& m) { return (Place(m.a1, m.b1, m.c1) ^ Place(m.a2, m.b2, m.c2)) * Place(m.a3, m.b3, m.c3) < 0; }
 
 Matrix weighted_sum(const Matrix& sum, double weight, const Matrix& term) {
@@ -25,13 +26,14 @@ const Matrix zero(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
 
 }  // namespace
 
+/// A primitive of a mesh, decompressed if it is compressed.
 struct GltfMeshes::Primitive {
     Item item;
-    Item packed_ids;  // of its attributes in `packed`
+    Item packed_ids;  // numbers of its attributes in `packed`
     std::unique_ptr<DracoMesh> packed;
 };
 
-/// What the instances of a primitive have in common.
+/// What all instances of a primitive have in common.
 struct GltfMeshes::Vertices {
     AccessorValues places;
     std::optional<AccessorValues> normals, uvs, colours;
@@ -86,7 +88,8 @@ std::optional<AccessorValues> GltfMeshes::numbers(const Primitive& primitive, co
                                              : file_.numbers(*accessor);
 }
 
-// With the displacements of morph targets times their weights.
+// Returns an attribute with the displacements of morph targets times their weights. `least`, `most`: the numbers that an element
+// of it may have.
 std::optional<AccessorValues> GltfMeshes::posed(const Primitive& primitive, const char* attribute, const Posing& posing,
                                                 std::size_t least, std::size_t most) {
     std::optional<AccessorValues> all = numbers(primitive, attribute);
@@ -106,6 +109,7 @@ std::optional<AccessorValues> GltfMeshes::posed(const Primitive& primitive, cons
     return all;
 }
 
+// Returns three vertex indices for each triangle of a list (mode 4), a strip (5) or a fan (6).
 std::vector<std::uint32_t> GltfMeshes::triangles(const Primitive& primitive, std::size_t mode, std::size_t vertices) {
     std::vector<std::uint32_t> order;
     const auto accessor = file_.named(primitive.item.at("indices"), "accessors");
@@ -135,7 +139,8 @@ std::vector<std::uint32_t> GltfMeshes::triangles(const Primitive& primitive, std
     return list;
 }
 
-// glTF 2.0, 3.7.3: a vertex goes where the mean of its joints' matrices, by their weights, takes it; the node has no say.
+// Returns a matrix for each vertex (glTF 2.0, 3.7.3): the mean of its joints' matrices by their weights; the node's transform
+// does not count. Vertices without weights follow the node.
 std::vector<Matrix> GltfMeshes::joint_matrices(const Primitive& primitive, const Posing& posing, std::size_t vertices) {
     std::vector<Matrix> sums(vertices, zero);
     std::vector<double> totals(vertices);
@@ -161,7 +166,7 @@ std::vector<Matrix> GltfMeshes::joint_matrices(const Primitive& primitive, const
     return sums;
 }
 
-// `at`: one matrix for all vertices, or one for each.
+// Adds the triangles, moved into the scene, as a piece. `at`: one matrix for all vertices, or one for each.
 void GltfMeshes::place(const Vertices& v, const std::vector<Matrix>& at) {
     const std::size_t count = v.places.count;
     if ((vertices_ += count) >= std::size_t(1) << 32) throw std::runtime_error("has more than 2^32 vertices");

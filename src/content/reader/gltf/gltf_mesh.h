@@ -8,27 +8,30 @@
 
 namespace lfdsim::reader {
 
-/// A mesh without places, and these, in double precision.
+/// A mesh without its positions, and these in double precision.
 struct Piece {
     std::unique_ptr<aiMesh> mesh;
     std::vector<Place> places;
 };
 
-/// How the vertices of a node's mesh come to the scene: each by its joints where there are any, else all by each of `instances`.
+/// How the vertices of a node's mesh are moved into the scene: each by its joints if there are any, else all by each of
+/// `instances`.
 struct Posing {
     std::vector<Matrix> instances, joints;
     std::vector<double> morph_weights;
 };
 
+/// The triangles of all meshes of a scene.
 class GltfMeshes {
   public:
     GltfMeshes(GltfFile& file, NotShown& not_shown) : file_(file), not_shown_(not_shown), materials_(file) {}
 
+    /// Adds the mesh of a node.
     void add(const Item& mesh, const Posing&);
 
     std::vector<Piece> pieces;
     GltfMaterials& materials() { return materials_; }
-    std::size_t points() const { return points_; }  // that were passed over
+    std::size_t points() const { return points_; }  // vertices of points and lines, which are left out
 
   private:
     struct Primitive;

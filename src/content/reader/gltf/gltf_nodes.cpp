@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::size_t no_parent = SIZE_MAX;
 
+// Returns a node's transform relative to its parent.
 Matrix local(const Item& node) {
     if (node.has("matrix")) {  // column by column
         const auto m = node.at("matrix").numbers<16>({});
@@ -16,7 +17,7 @@ Matrix local(const Item& node) {
                   node.at("scale").numbers<3>({1, 1, 1}).data());
 }
 
-/// Fronts look along +z by glTF, and VRM 1.0; VRM 0.x has them along -z.
+/// Returns the rotation that turns the front to +z, where it is by glTF and VRM 1.0; VRM 0.x has it at -z.
 Matrix to_front(const Item& root) {
     const Item extensions = root.at("extensions");
     const double turn = extensions.has("VRM") && !extensions.has("VRMC_vrm") ? -1 : 1;
@@ -26,6 +27,7 @@ Matrix to_front(const Item& root) {
 }  // namespace
 
 Matrix placed(const double* t, const double* q, const double* s) {
+    // The matrix is that of the unit quaternion; one of length 0 means no rotation.
     const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     const double x = size > 0 ? q[0] / size : 0, y = size > 0 ? q[1] / size : 0, z = size > 0 ? q[2] / size : 0,
                  w = size > 0 ? q[3] / size : 1;
@@ -63,7 +65,7 @@ GltfNodes::GltfNodes(const GltfFile& file) : file_(file) {
     world_.resize(nodes.size());
     std::vector<bool> known(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        std::vector<std::size_t> line;  // from this node up to one whose place is known
+        std::vector<std::size_t> line;  // from this node up to one whose transform is known
         for (std::size_t n = i; n != no_parent && !known[n]; n = parents_[n]) {
             if (line.size() == nodes.size()) nodes[i].fail("is a descendant of itself");
             line.push_back(n);
@@ -80,7 +82,7 @@ std::vector<std::size_t> GltfNodes::shown() const {
     const Item root = file_.root(), nodes = root.at("nodes");
     auto scene = file_.named(root.at("scene"), "scenes");
     if (!scene && root.at("scenes").size() > 0) scene = root.at("scenes")[0];
-    std::vector<std::size_t> open, found;  // open: last first
+    std::vector<std::size_t> open, found;  // open: nodes still to visit, the last one first
     if (scene) {
         const Item first = scene->at("nodes");
         for (std::size_t k = first.size(); k-- > 0;) {
@@ -91,6 +93,7 @@ std::vector<std::size_t> GltfNodes::shown() const {
         for (std::size_t k = nodes.size(); k-- > 0;)
             if (parents_[k] == no_parent) open.push_back(k);
     }
+    // Depth first, a parent before its children; a node that is listed twice counts once.
     std::vector<bool> seen(nodes.size());
     while (!open.empty()) {
         const std::size_t n = open.back();

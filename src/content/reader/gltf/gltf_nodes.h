@@ -1,4 +1,4 @@
-// The nodes of a glTF file: where they stand, and which of them its scene shows.
+// The nodes of a glTF file: their transforms, and which of them its scene shows.
 #pragma once
 #include "content/reader/gltf/gltf_file.h"
 #include "content/reader/places.h"
@@ -11,15 +11,16 @@ namespace lfdsim::reader {
 
 using Matrix = aiMatrix4x4t<double>;
 
+/// The trees of nodes.
 class GltfNodes {
   public:
-    /// Throws std::runtime_error for nodes that are no trees.
+    /// Throws std::runtime_error if the nodes do not form trees.
     explicit GltfNodes(const GltfFile&);
 
     /// Returns the transform from a node's coordinates to the scene's.
     const Matrix& world(std::size_t node) const { return world_[node]; }
-    /// The nodes of the file's scene in its order; of a file without scenes, all. Parts that KHR_node_visibility hides are not
-    /// among them.
+    /// Returns the nodes of the file's scene, in its order; of a file without scenes, all nodes. Nodes that KHR_node_visibility
+    /// hides, and those below them, are left out.
     std::vector<std::size_t> shown() const;
 
   private:
@@ -28,7 +29,7 @@ class GltfNodes {
     std::vector<Matrix> world_;
 };
 
-/// Translation x rotation (a quaternion x, y, z, w) x scale.
+/// Returns translation x rotation (a quaternion x, y, z, w of any length) x scale.
 Matrix placed(const double* translation, const double* rotation, const double* scale);
 
 }  // namespace lfdsim::reader

@@ -9,6 +9,7 @@
 namespace lfdsim::reader {
 namespace {
 
+// Returns the first line of a text, and removes it from the text; next_word() and next_number() do so with a line.
 std::string_view next_line(std::string_view& text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
@@ -31,12 +32,13 @@ std::optional<double> next_number(std::string_view& line) {
     return error == std::errc() && end == word.data() + word.size() ? std::optional(x) : std::nullopt;
 }
 
-/// Says of one line after the other whether its first word's rest, or all of it, begins with a position.
+/// Decides for one line after the other whether it holds a position: after the keyword of OBJ or STL, or in OFF in as many lines
+/// after the counts as there are vertices.
 class Positions {
   public:
     explicit Positions(std::string_view ending) : off_(ending == ".off"), key_(ending == ".obj" ? "v" : "vertex") {}
 
-    /// What follows before the position, if there is one.
+    /// Returns what precedes the position in a line; nothing if the line has none.
     std::optional<std::string_view> before(std::string_view line) {
         std::string_view rest = line;
         const std::string_view word = next_word(rest);
@@ -74,7 +76,7 @@ std::optional<EditedLine> position(std::string_view text) {
     return found;
 }
 
-// Whether a position has a fourth number, which divides it, or goes on in another line.
+// Returns whether a position has a fourth number, by which it is divided, or continues in another line.
 bool is_unusual(std::string_view rest) {
     int count = 0;
     while (next_number(rest)) ++count;
@@ -84,6 +86,7 @@ bool is_unusual(std::string_view rest) {
 }  // namespace
 
 std::optional<std::string> nearer_the_origin(std::string_view text, std::string_view ending) {
+    // The first pass finds the middle, the second writes positions relative to it.
     BoxMiddle middle;
     std::string_view rest = text;
     for (Positions positions(ending); !rest.empty();) {
@@ -137,6 +140,7 @@ std::string without_texture_options(std::string_view text, std::map<std::string,
             continue;
         }
         out.append(key);
+        // One option after the other is removed from the line: -s and -o become the material's tiling, -clamp is kept.
         for (std::string_view after = rest; next_word(after).starts_with('-') && !after.empty(); after = rest) {
             const std::string option(next_word(rest));
             if (option == "-s" || option == "-o" || option == "-t") {

@@ -1,4 +1,4 @@
-// Texts of models that Assimp 5.2 would misread, with the same meaning in a form that it reads rightly.
+// Texts of models that Assimp 5.2 would misread, rewritten with the same meaning in a form that it reads rightly.
 #pragma once
 #include "content/reader/limits/not_shown.h"
 
@@ -10,17 +10,17 @@
 
 namespace lfdsim::reader {
 
-/// OBJ, OFF and text STL: their positions relative to the middle of their box, where that is so far from the origin that float
-/// would round them; none where nothing has to change. `ending`: ".obj" and so on.
+/// Returns an OBJ, OFF or text STL file with positions relative to the middle of their box, if that is so far from the origin
+/// that floats would round them; nothing if no change is needed, or if positions are unusual. `ending`: ".obj", ".off" or ".stl".
 std::optional<std::string> nearer_the_origin(std::string_view text, std::string_view ending);
 
-/// What a .mtl file does with texture coordinates before it looks them up: offset + scale (u, v).
+/// The transformation of texture coordinates by a .mtl file: offset + scale (u, v).
 struct Tiling {
     std::array<double, 2> offset{0, 0}, scale{1, 1};
 };
 
-/// A .mtl file without the options of its colour textures; those that move or scale a texture go to `tilings`, by the materials'
-/// names, others are not shown.
+/// Returns a .mtl file without the options of its colour textures. Those that move or scale a texture go to `tilings`, by the
+/// materials' names; others are not shown.
 std::string without_texture_options(std::string_view text, std::map<std::string, Tiling>& tilings, NotShown&);
 
 }  // namespace lfdsim::reader

@@ -20,7 +20,7 @@ bool Folder::inside(const fs::path& file) const {
 
 bool Folder::Exists(const char* file) const { return inside(fs::absolute(file)) && fs::is_regular_file(fs::status(file)); }
 
-// Regular files only: a pipe or device named by a model would never end.
+// Opens regular files only: a pipe or device that a model names would never end.
 Assimp::IOStream* Folder::Open(const char* file, const char* mode) {
     if (std::strchr(mode, 'w') || std::strchr(mode, 'a') || !Exists(file)) return nullptr;
     opened_.push_back(fs::absolute(file).string());

@@ -1,4 +1,4 @@
-// Files a model may reach: those in its own folder and below, whatever paths it names.
+// Files that a model may read: those in its folder and below, whatever paths it names.
 #pragma once
 #include <assimp/DefaultIOSystem.h>
 
@@ -11,6 +11,7 @@
 
 namespace lfdsim::reader {
 
+/// Assimp's access to files, which opens nothing outside of the model's folder and nothing for writing.
 class Folder : public Assimp::DefaultIOSystem {
   public:
     explicit Folder(const std::filesystem::path& model);
@@ -18,15 +19,15 @@ class Folder : public Assimp::DefaultIOSystem {
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
 
-    /// The file that a name in the model refers to: inside the folder, links resolved; backslashes count as slashes, and a path
-    /// that leads out of the folder (often one of the author's own machine) stands for the file of that name beside the model.
-    /// Case is ignored where no exact match exists.
+    /// Returns the file that a name in the model refers to, if it is inside the folder even after links are resolved: backslashes
+    /// count as slashes; a path that leads out of the folder (often one of the author's machine) means the file of that name
+    /// beside the model; case is ignored if there is no exact match. Nothing if there is none.
     std::optional<std::filesystem::path> find(std::string name) const;
 
-    /// Gives the text of a file that is to be read in place of what it has; none of most.
+    /// A function that returns the text to be read in place of a file's; nothing for most files.
     std::function<std::optional<std::string>(const std::string& file)> edited = [](const std::string&) { return std::nullopt; };
 
-    /// The files that were opened for reading.
+    /// Returns the files that were opened for reading.
     const std::vector<std::string>& opened() const { return opened_; }
 
   private:

@@ -17,7 +17,7 @@
 namespace lfdsim::reader {
 namespace {
 
-// Never above what the system allows already. `grace`: how much more before the limit is hard.
+// Sets a limit, never above what the system allows already. `grace`: how far the hard limit lies above it.
 void limit(__rlimit_resource what, rlim_t value, rlim_t grace = 0) {
     rlimit now{};
     getrlimit(what, &now);
@@ -40,7 +40,7 @@ void allow_for(const std::filesystem::path& file) {
     if (most_seconds == 0) return;
     std::error_code none;
     if (const auto bytes = std::filesystem::file_size(file, none); !none) file_bytes += double(bytes);
-    // First SIGXCPU, which says why.
+    // At the soft limit the process gets SIGXCPU, which tells the parent the reason.
     limit(RLIMIT_CPU, rlim_t(std::min(std::ceil(most_seconds), std::floor(least_seconds + seconds_per_byte * file_bytes))),
           rlim_t(1 << 20));
 }

@@ -1,4 +1,4 @@
-// What of a file is not shown, for one warning.
+// Features of a file that are not shown, for one warning.
 #pragma once
 #include <set>
 #include <string>
@@ -6,12 +6,13 @@
 
 namespace lfdsim::reader {
 
+/// The set of these features.
 class NotShown {
   public:
     /// Adds a feature that is not shown, in the plural: "animations".
     void add(const std::string& what) { all_.insert(what); }
 
-    /// "animations and points are not shown", none where everything is.
+    /// Returns "animations and points are not shown"; empty if everything is shown.
     std::vector<std::string> notes() const {
         if (all_.empty()) return {};
         std::string text;

@@ -11,7 +11,8 @@
 namespace lfdsim::reader {
 namespace {
 
-/// What is wrong with a binary STL file that is not as long as its number of triangles says: Assimp then takes it for text.
+/// Returns what is wrong with a binary STL file whose length does not agree with its number of triangles, and which Assimp
+/// therefore takes for text; nothing for other files.
 std::optional<std::string> wrong_length(const std::filesystem::path& file) {
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });

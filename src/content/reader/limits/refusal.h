@@ -1,4 +1,4 @@
-// Assimp's words in plain ones.
+// Assimp's messages in plain terms.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -6,10 +6,10 @@
 
 namespace lfdsim::reader {
 
-/// Why a file is refused, for what Assimp says of it.
+/// Returns why a file is refused, from Assimp's message.
 std::string refusal(const std::string& says, const std::filesystem::path& file);
 
-/// What a warning of Assimp's means for the picture; nothing where another warning has said it.
+/// Returns what a warning of Assimp's means for the picture; nothing if another warning says it.
 std::optional<std::string> plain_warning(const std::string& says);
 
 }  // namespace lfdsim::reader

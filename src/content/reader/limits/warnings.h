@@ -8,7 +8,7 @@
 
 namespace lfdsim::reader {
 
-/// Collects warnings and errors, each text once, the first few.
+/// Collects the first eight different warnings and errors.
 class Warnings : public Assimp::LogStream {
   public:
     static constexpr std::size_t most = 8;

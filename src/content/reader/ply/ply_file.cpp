@@ -37,6 +37,7 @@ class PlyFile::Body {
   public:
     Body(std::string_view bytes, PlyEncoding form) : rest_(bytes), form_(form) {}
 
+    /// Reads the next number.
     double number(Type type) {
         if (form_ == PlyEncoding::text) return word();
         switch (type) {
@@ -58,7 +59,7 @@ class PlyFile::Body {
                 return take<double>();
         }
     }
-    /// At least that many bytes each number takes.
+    /// Returns the number of bytes that are left; each number takes at least one.
     std::size_t left() const { return rest_.size(); }
 
   private:

@@ -9,34 +9,37 @@ namespace lfdsim::reader {
 /// A property of an element: a number, or a list of numbers, in each of its rows.
 struct PlyProperty {
     std::string name;
-    double unit = 1;  // what stands for 1 in its type, if it is a colour: 255 of bytes
+    double unit = 1;  // the value that means 1 in its type, if it is a colour: 255 of bytes
     bool is_list = false;
     std::vector<double> values;       // of all rows, one after the other
-    std::vector<std::size_t> starts;  // lists: where each row's begins, and the end
+    std::vector<std::size_t> starts;  // of lists: index of each row's first value, and the end
 
+    /// Return the number of values of a row, and the first of them.
     std::size_t size(std::size_t row) const { return is_list ? starts[row + 1] - starts[row] : 1; }
     const double* row(std::size_t row) const { return values.data() + (is_list ? starts[row] : row); }
 };
 
+/// An element: rows with the same properties.
 struct PlyElement {
     std::string name;
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// The first of these names that there is, or null.
+    /// Returns the property with the first of these names that exists, or null.
     const PlyProperty* find(std::initializer_list<std::string_view> names) const;
 };
 
+/// A PLY file: its header after construction, its numbers after read().
 struct PlyFile {
     std::vector<PlyElement> elements;
     std::vector<std::string> textures;  // "comment TextureFile NAME"
 
-    /// Reads the header, so that elements have names and counts; `bytes` are to outlive this. Throws std::runtime_error that says
+    /// Reads the header, so that elements have names and counts; `bytes` must outlive this. Throws std::runtime_error, which says
     /// what is wrong.
     explicit PlyFile(std::string_view bytes);
-    /// Reads the elements' numbers. Throws likewise.
+    /// Reads the elements' numbers. Throws std::runtime_error.
     void read();
-    /// Null where it is not there.
+    /// Returns an element; null if there is none.
     const PlyElement* find(std::string_view name) const;
 
   private:

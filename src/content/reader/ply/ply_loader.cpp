@@ -15,9 +15,9 @@
 namespace lfdsim::reader {
 namespace {
 
-/// Three numbers (or two) of an element's rows, by the names that programs give them.
+/// Two or three numbers of an element's rows, by the names that programs give them.
 struct Columns {
-    std::vector<const PlyProperty*> all;  // empty where one of them is not there
+    std::vector<const PlyProperty*> all;  // empty if one of them is missing
 
     Columns() = default;
     Columns(const PlyElement& element, std::initializer_list<std::initializer_list<std::string_view>> names) {
@@ -36,7 +36,7 @@ Columns colours_of(const PlyElement& element) {
 /// A corner of a polygon.
 struct Corner {
     std::size_t vertex, face;
-    const double* uv;  // of its own, or null
+    const double* uv;  // the corner's texture coordinates, or null
 };
 
 /// A mesh of polygons with one texture.
@@ -45,6 +45,7 @@ struct Polygons {
     std::vector<std::size_t> sizes;  // corners of each polygon
 };
 
+/// The conversion of a file's elements to Assimp's meshes, one for each texture.
 class Reading {
   public:
     Reading(const PlyFile& file, NotShown& not_shown) : file_(file), not_shown_(not_shown) {
@@ -68,6 +69,7 @@ class Reading {
         if (meshes_.empty()) throw std::runtime_error("has no triangles: nothing to show");
         for (std::size_t row = 0; row < vertices_->count; ++row) middle_.add(place(row));
         offset_ = middle_.offset();
+        // Each texture gets a mesh and a material of the same index.
         scene.mRootNode = new aiNode("scene");
         scene.mRootNode->mMeshes = new unsigned[meshes_.size()];
         scene.mMeshes = new aiMesh* [meshes_.size()] {};
@@ -90,7 +92,7 @@ class Reading {
         return std::size_t(number);
     }
 
-    // Those that are not there are one more.
+    // Returns a texture's number; all that do not exist count as one more.
     std::size_t texture_of(double number) const {
         return number >= 0 && number < double(file_.textures.size()) ? std::size_t(number) : file_.textures.size();
     }
@@ -117,7 +119,7 @@ class Reading {
         }
     }
 
-    // Every vertex makes a triangle with the two before it, turned the other way every time; -1 begins a new strip.
+    // Adds the triangles of strips: every vertex makes one with the two before it, in alternating order; -1 begins a new strip.
     void add_strips(const PlyElement& strips) {
         const PlyProperty* const indices = strips.find({"vertex_indices", "vertex_index"});
         for (std::size_t s = 0; indices && s < strips.count; ++s) {
@@ -149,7 +151,8 @@ class Reading {
         return made;
     }
 
-    // Where corners have something of their own every corner is a vertex: Assimp joins those that are the same.
+    // Returns Assimp's mesh. If corners have texture coordinates or faces have colours, or if there are several textures, every
+    // corner becomes a vertex.
     std::unique_ptr<aiMesh> mesh(const Polygons& from) const {
         const bool own = own_uvs_ || face_colour_ || meshes_.size() > 1;
         const std::size_t count = own ? from.corners.size() : vertices_->count;

@@ -1,4 +1,5 @@
-// PLY in Assimp's place: version 5.2 folds what corners and faces have onto vertices, and rounds coordinates before anything else.
+// A loader of PLY in place of Assimp's, whose version 5.2 assigns to vertices what corners and faces have, and rounds coordinates
+// before anything else.
 #pragma once
 #include "content/reader/limits/not_shown.h"
 
@@ -9,8 +10,8 @@
 
 namespace lfdsim::reader {
 
-/// Fills an empty scene with a file's faces and strips, the middle taken off what is far from the origin. Throws std::runtime_error
-/// that says what is wrong.
+/// Fills an empty scene with a file's faces and strips; positions far from the origin are taken relative to their middle. Throws
+/// std::runtime_error, which says what is wrong.
 void read_ply(std::string_view bytes, aiScene&, NotShown&);
 
 class PlyLoader : public Assimp::BaseImporter {
