@@ -60,8 +60,8 @@ class ChannelPixels {
     /// A shining rectangle of the channel and the points for which its content is made.
     struct ChannelRect {
         LitPart lit;
-        Place shown,
-            pixel;  // from the corner of the cell that it lies in; pixel: top left corner of the pixel whose value it shows
+        // From the corner of the cell in which the rectangle lies; pixel: top left corner of the pixel whose value it shows
+        Place shown, pixel;
     };
     Place size_;  // of the panel
     std::vector<ChannelRect> parts_;

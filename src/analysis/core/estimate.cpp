@@ -25,8 +25,8 @@ double total(const Sums& sums, int without) {
 }
 
 std::uint32_t set_number(std::int64_t seed, int n) {
-    const std::uint64_t mixed =
-        std::uint64_t(seed) * 0x9e3779b97f4a7c15u;  // 0 for seed 0; consecutive seeds are far apart (golden ratio)
+    // Seed 0 gives 0; by the golden ratio consecutive seeds are far apart.
+    const std::uint64_t mixed = std::uint64_t(seed) * 0x9e3779b97f4a7c15u;
     return std::uint32_t(mixed >> 32) + std::uint32_t(n);
 }
 

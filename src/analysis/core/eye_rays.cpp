@@ -103,8 +103,7 @@ Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
     };
     Place place{in_cell(0, moved.x), in_cell(1, moved.y)};
     // The rectangles p by p_y about hexagons' axes cover the plane as the hexagons do: a position outside of this hexagon lies in
-    // a
-    // neighbouring one, and is taken relative to that.
+    // a neighbouring one, and is taken relative to that.
     if (lattice.hexagonal) {
         const Place centre = optics::axis_of(lattice, optics::cell_at(lattice, place.x, place.y));
         place = {place.x - centre.x, place.y - centre.y};

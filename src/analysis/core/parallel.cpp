@@ -21,8 +21,8 @@ void Parts::run(int n, const std::function<void(int)>& part) {
 
 std::int64_t pictures_worth(const Subject& s, std::int64_t rays) {
     const std::array<std::int64_t, 2>& size = s.display().camera.resolution;
-    return std::max<std::int64_t>(1,
-                                  4 * rays / (size[0] * size[1]));  // a single ray takes as long as about four pixels of a picture
+    // A single ray takes as long as about four pixels of a picture.
+    return std::max<std::int64_t>(1, 4 * rays / (size[0] * size[1]));
 }
 
 }  // namespace lfdsim

@@ -37,8 +37,8 @@ LensBlock ScreenParts::middle() const {
 Choice ScreenParts::within(const LensBlock& block, Choice choice) const {
     for (std::size_t k = 0; k < 2; ++k) {
         const double first = double(block.first[k]), end = double(block.end[k]);
-        double& number =
-            choice[k == 1 && lattice_.strips ? 1 : 4 + k];  // a strip is one lens: its squares are chosen by the position along it
+        // A strip is one lens: its squares are chosen by the position along it.
+        double& number = choice[k == 1 && lattice_.strips ? 1 : 4 + k];
         number = 2 * (first + (0.5 + 0.5 * number) * (end - first)) / double(lenses_[k]) - 1;
     }
     return choice;

@@ -10,8 +10,8 @@ namespace lfdsim {
 
 /// Neighbouring lenses: all in a range of columns and rows. Strips are cut into squares, which count as lenses here.
 struct LensBlock {
-    std::array<std::int64_t, 2> first,
-        end;  // along x' and y', counted from the array's left and lower border; `end` is not included
+    // Along x' and y', counted from the array's left and lower border; `end` is not included
+    std::array<std::int64_t, 2> first, end;
     double lenses() const { return double(end[0] - first[0]) * double(end[1] - first[1]); }
 };
 

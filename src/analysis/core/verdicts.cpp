@@ -18,11 +18,11 @@ namespace {
 
 constexpr double most_seen_share = 0.5;    // of an elemental image at once: if an eye sees more, no position shows one view alone
 constexpr double most_mixed_percent = 50;  // between the eyes: a third of the light is wrong
-constexpr double most_aberrated_percent = 15,
-                 most_more_percent = 10;  // between the eyes, and how much of it at least is due to aberration
+// Between the eyes, and how much of it at least is due to aberration
+constexpr double most_aberrated_percent = 15, most_more_percent = 10;
 constexpr double most_blur_pixels = 1.5;
-constexpr double most_on_borders =
-    0.1;  // share of the panel's light whose pixels have their centres on borders of elemental images
+// Share of the panel's light whose pixels have their centres on borders of elemental images
+constexpr double most_on_borders = 0.1;
 constexpr double most_visible_contrast = 0.05;  // of colours, after the eye's filter
 
 /// Returns a number as text: three digits, without an exponent.
@@ -163,9 +163,8 @@ std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Th
     const std::optional<LensBlur> b = blur(d, g);
     if (!b || !(b->pixels > most_blur_pixels)) return {};
     const double eye = eye_distance_mm(d);
-    const double L = std::abs(t.central_depth_mm) > 1000 * eye
-                         ? infinity
-                         : t.central_depth_mm;  // practically infinite: lenses focused on the panel
+    // From a thousand viewing distances on L is practically infinite: the lenses are focused on the panel.
+    const double L = std::abs(t.central_depth_mm) > 1000 * eye ? infinity : t.central_depth_mm;
     const auto wide = [&](double pixels) {
         const double slope = pixels * d.panel.pixel_pitch_mm / g.gap_mm;
         return std::isinf(L) ? fmt::format("{:.3g} degrees", std::atan(slope) / degree)

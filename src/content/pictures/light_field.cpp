@@ -109,7 +109,7 @@ LightField::LightField(ViewGrid grid, std::vector<Image> views, std::vector<Kapp
         for (const float kappa : maps_[k].kappa)
             if (std::isfinite(kappa)) furthest_ = std::min(furthest_, kappa), nearest_ = std::max(nearest_, kappa);
     }
-    if (nearest_ < furthest_) nearest_ = furthest_ = 0;  // nothing is anywhere
+    if (nearest_ < furthest_) nearest_ = furthest_ = 0;  // no map has a point
     for (KappaMap& map : maps_)
         for (float& kappa : map.kappa)
             if (!std::isfinite(kappa)) kappa = furthest_;  // where nothing is, a wall behind everything
@@ -155,7 +155,7 @@ bool LightField::cell_of(const FieldLine& line, Cell& cell) const {
         i += right;
         j += down;
     }
-    // A camera stands for lines that are nearer to it than to other cameras, the outermost ones for half a step beyond them,
+    // A camera shows the lines that are nearer to it than to other cameras, the outermost ones for half a step beyond them,
     // where the elemental images of a display for quilts end: rounding in single precision must not cut these.
     constexpr double beyond = 0.5001;
     if (!(s >= -beyond && s <= 1 + beyond && t >= -beyond && t <= 1 + beyond)) return false;
