@@ -14,6 +14,7 @@ std::vector<Node> wavelengths_of(const Display& d, int channel) {
     const double middle = d.panel.wavelengths_nm[c];
     const auto K = std::size_t(std::clamp<std::int64_t>(d.render.wavelength_samples, 1, max_wavelength_samples));
     if (K == 1 || !d.panel.primary_widths_nm) return {{middle, 1}};
+    // sigma = w/(2 sqrt(2 ln 2)); the nodes are l + sqrt(2) sigma x, x the zeros of the Hermite polynomial of degree K.
     const double sigma = (*d.panel.primary_widths_nm)[c] / (2 * std::sqrt(2 * std::numbers::ln2));
     std::vector<Node> nodes;
     for (const double x : hermite_zeros(K)) nodes.push_back({middle + std::numbers::sqrt2 * sigma * x, hermite_weight(K, x)});
@@ -52,7 +53,7 @@ bool disperses(const Display& d) {
 }
 
 Display at_wavelength(Display d, double wavelength_nm) {
-    if (d.array.gap_mm) {  // to a principal plane, which is elsewhere in other light
+    if (d.array.gap_mm) {  // the gap ends at a principal plane, which is elsewhere in other light
         d.array.base_z_mm = resolve(without_errors(d)).base_z_mm;
         d.array.gap_mm.reset();
     }

@@ -10,21 +10,23 @@ constexpr SpectralLine lines[] = {{"i", 365.0146}, {"h", 404.6561},  {"g", 435.8
                                   {"e", 546.074},  {"d", d_line_nm}, {"D", 589.2938}, {"C'", 643.8469}, {"C", C_line_nm},
                                   {"r", 706.5188}, {"s", 852.11},    {"t", 1013.98}};
 
+/// 1/l^2, l in micrometres.
 double inverse_square(double wavelength_nm) { return 1e6 / (wavelength_nm * wavelength_nm); }
 
-/// n = A + B/l^2 through n_d, with n_F - n_C = (n_d - 1)/V_d.
+/// Returns n = A + B/l^2, which is n_d at the d line and has n_F - n_C = (n_d - 1)/V_d: B = (n_d - 1)/V_d / (1/F^2 - 1/C^2).
 double through_d(double nd, double vd, double wavelength_nm) {
     const double B = (nd - 1) / vd / (inverse_square(F_line_nm) - inverse_square(C_line_nm));
     return nd + B * (inverse_square(wavelength_nm) - inverse_square(d_line_nm));
 }
 
-/// Sum of B l^2/(l^2 - C), in pairs B, C.
+/// Returns the sum of B l^2/(l^2 - C) over the pairs B, C.
 double resonant(std::span<const double> pairs, double l2) {
     double sum = 0;
     for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) sum += pairs[k] * l2 / (l2 - pairs[k + 1]);
     return sum;
 }
 
+/// Returns the sum of c l^p over the pairs c, p.
 double powers(std::span<const double> pairs, double l) {
     double sum = 0;
     for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) sum += pairs[k] * std::pow(l, pairs[k + 1]);

@@ -315,8 +315,8 @@ Glass by_schott(std::string name, std::array<double, 6> coefficients, std::array
     return {std::move(name), Formula::power_series, schott_powers(coefficients), range_nm};
 }
 
-/// Measured against a vacuum. Against air n^2 is smaller by the square of air's index, at 20 degrees 1.000272 within 5e-6 in
-/// visible light.
+/// Water was measured against a vacuum. Against air n^2 is smaller by the square of air's index, which at 20 degrees is 1.000272
+/// within 5e-6 in visible light.
 Glass water() {
     constexpr double air = 1.000272, per = 1 / (air * air);
     return {"WATER",

@@ -1,4 +1,4 @@
-// Walks the tree of tables.
+// Walks the tree of tables that a description is: the values, files and tables of a display, each with its dotted path.
 #include "display/keys.h"
 
 #include <optional>
@@ -6,6 +6,7 @@
 namespace lfdsim {
 namespace {
 
+// A type that has no line here counts as one that can name a file, so that visitors of the viewer cannot set it.
 template <class Field>
 struct Plain : std::bool_constant<std::is_arithmetic_v<Field> || has_words<Field>> {};
 template <class Number>
@@ -18,7 +19,7 @@ template <>
 struct Plain<Pitch> : std::true_type {};
 template <>
 struct Plain<Glass> : std::true_type {};  // a name is looked up in the catalogues, and a table has numbers
-/// Whether a value of this type can name no file: numbers, words and glasses. A type that is not known here can.
+/// Whether a value of this type cannot name a file: numbers, words and glasses.
 template <class Field>
 inline constexpr bool is_plain = Plain<Field>::value;
 
@@ -33,6 +34,7 @@ KeyInfo info(const Key<T>& key) {
     return {key.name, key.range, key.required, key.doc, key.absent, names_file(key)};
 }
 
+/// Returns a struct whose fields have their defaults.
 template <class T>
 const T& fresh_one() {
     static const T fresh{};
@@ -45,13 +47,14 @@ void each_key(const Visit& visit) {
     for (const Key<T>& key : table_of<T>().keys) std::visit([&](auto member) { visit(key, member); }, key.member);
 }
 
-/// The value that a key of a struct fills, and the one that a fresh struct has; nothing if it is a table. What a walk does with
-/// them is compiled once for each struct, not for each type that a value may have.
+/// The value that a key of a struct fills, and the one that a fresh struct has. What a walk does with them is compiled once for
+/// each struct, not for each type that a value may have.
 template <class Ref>
 struct ValueAndDefault {
     Ref value;
     ConstValueRef fresh;
 };
+/// Returns the value of a key; nothing if the key is a table.
 template <class Ref, class T, class Struct = std::remove_const_t<T>>
 std::optional<ValueAndDefault<Ref>> value_of(T& in, const Key<Struct>& key) {
     return std::visit(
@@ -65,7 +68,8 @@ std::optional<ValueAndDefault<Ref>> value_of(T& in, const Key<Struct>& key) {
         key.member);
 }
 
-// A struct's own values come before the tables within it, as in TOML; those of its kind belong to both.
+// Visits the values of a struct and of its kind, all of which have the same prefix. They come before the tables within it, as TOML
+// requires: a key that follows the header of a table belongs to that table.
 template <class Ref, class T, class Visit>
 void walk_values(T& in, const std::string& prefix, const Visit& visit) {
     using Struct = std::remove_const_t<T>;
@@ -84,6 +88,7 @@ void walk_values(T& in, const std::string& prefix, const Visit& visit) {
 template <class Ref, class T, class Visit>
 void walk(T& in, const std::string& prefix, const Visit& visit);
 
+// Visits the tables within a struct: those that the display has, each element of a list under its number, and those of its kind.
 template <class Ref, class T, class Visit>
 void walk_parts(T& in, const std::string& prefix, const Visit& visit) {
     using Struct = std::remove_const_t<T>;
@@ -113,6 +118,7 @@ void walk(T& in, const std::string& prefix, const Visit& visit) {
     if constexpr (has_parts<std::remove_const_t<T>>) walk_parts<Ref>(in, prefix, visit);
 }
 
+// Adds the table of a struct, then those within it; of a kind, the tables of all its alternatives.
 template <class T>
 void add_tables(const std::string& path, PartKind is, std::vector<FormatTable>& all) {
     all.push_back({path, table_of<T>().name, table_of<T>().doc, is, {}});
@@ -155,6 +161,7 @@ const std::vector<FormatTable>& format_tables() {
 const FormatTable::Value* key_at(std::string_view path) {
     const std::string_view name = path.substr(path.rfind('.') + 1), in = table_of_path(path);
     for (const FormatTable& table : format_tables()) {
+        // The path of an element, "lens.surface.0", less its point and number is that of the list.
         const std::string_view here = table.is == PartKind::list ? in.substr(0, in.find_last_not_of("0123456789")) : in;
         if (here != table.path) continue;
         for (const FormatTable::Value& value : table.values)
@@ -180,6 +187,7 @@ bool decides_a_file(std::string_view path) {
         if (part.find_first_not_of("0123456789") != part.npos) key.append(key.empty() ? "" : ".").append(part);
         start = end + 1;
     }
+    // Either path may contain the other: what is set at "content" sets all of its keys.
     const auto within = [](std::string_view inner, std::string_view outer) {
         return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
     };

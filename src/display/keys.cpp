@@ -12,7 +12,7 @@ namespace {
 constexpr Range count_range{1, two_to_31, false, true}, index_range{1, 4}, turn{-360, 360};
 constexpr Range wavelength_range{100, 10000}, width_range{0, 1000, true, false};
 constexpr Range angle{0, 180, false, true}, open_angle{0, 180, true, true}, slant_range{-90, 90, true, true};
-// Curvatures up to a nanometre's radius, and coefficients of any size: the sag that they give is checked instead.
+// Curvatures have radii down to a nanometre, and coefficients are hardly limited: the sag that they give is checked instead.
 constexpr Range curvature_range{-1 / shortest_mm, 1 / shortest_mm}, coefficient_range{-1e6, 1e6};
 
 constexpr Key<Panel> panel_keys[] = {
@@ -204,7 +204,7 @@ constexpr Key<Display> display_keys[] = {
     {"render", &Display::render, no_range, false, ""},
 };
 
-// A number as a person writes it: powers of two where they are limits.
+// Returns a number as a person writes it: limits that are powers of two as such.
 std::string number(double x) {
     if (x == two_to_31) return "2^31";
     if (x == two_to_63) return "2^63 - 1";

@@ -1,7 +1,14 @@
 // Every key of a display description: its name, range, meaning and the field it fills. Floor 0.
 //
 // One table serves all: validate() takes the ranges from it, the TOML reader and writer the names and types, docs/format.md the
-// words. A key's type is that of its field, its default the one of a fresh struct, its unit the end of its name.
+// words. A key's type is that of its field, its default the one of a fresh struct, its unit the end of its name (_mm, _per_mm, _nm,
+// _deg).
+//
+// A new key needs a field in its struct and a row in that struct's table; then docs/format.md is written anew (test
+// FormatReference). A field of a type that no key has yet also needs that type in ValuesOf (of Panel, Display and Content: in their
+// MemberOf), and overloads of read_value() and toml_text() in files/description/values.h, of type_text() in format_reference.cpp
+// and of json_of() in report/folder/description.cpp. A new enumeration needs words<E>(), in the order of its values. A new struct
+// needs table_of(), its name in has_table, and in has_parts if it contains tables.
 #pragma once
 #include "display/display.h"
 
@@ -20,7 +27,7 @@ struct Range {
     double low, high;
     bool low_open = false, high_open = false;
     bool contains(double x) const { return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high); }
-    std::string text() const;  // "0 <= x < 180" with "x" left out: "0 or more, below 180"
+    std::string text() const;  // as docs/format.md has it: "0 to below 180", "more than 0 to 1000", "0 or more, or inf"
 };
 
 // Nothing in a display is thinner than a nanometre or longer than a kilometre, so no length overflows any sum or product here.
@@ -30,7 +37,7 @@ inline constexpr Range any_length{-longest_mm, longest_mm}, positive_length{shor
 inline constexpr double two_to_31 = 2147483648.0,
                         two_to_63 = 9223372036854775808.0;  // what the largest 64-bit integer, 2^63 - 1, rounds to
 
-/// One of all the types of a value, Of<V> being a pointer to it or to a member.
+/// A variant over all types that a value of a description may have; Of<V> is a pointer to a V, or to a member of that type.
 template <template <class> class Of>
 using ValuesOf =
     std::variant<Of<double>, Of<std::optional<double>>, Of<std::int64_t>, Of<std::optional<std::int64_t>>, Of<std::string>,
@@ -41,8 +48,9 @@ using ValuesOf =
                  Of<ContentSampling>, Of<MadeFor>, Of<PickupKind>, Of<ErrorOf>, Of<std::vector<Vec3d>>, Of<Shading>, Of<Estimator>,
                  Of<Sampling>, Of<Fresnel>>;
 
-/// What a key fills. Only Display, Panel, SurfaceLens and Content contain tables: one that is always there, one that may be
-/// absent, or a list; the keys of a kind stand beside its word.
+/// The member of T that a key fills. Only Display, Panel, SurfaceLens and Content contain tables: one that is always there, one
+/// that may be absent, or a list. The keys of a kind are in the same table as the word that names it: [lens] has `type` and the
+/// keys of that type.
 template <class T>
 struct MemberOf {
     template <class V>
@@ -72,25 +80,26 @@ struct MemberOf<Content> {
                               ContentLight Content::*, std::vector<SceneObject> Content::*>;
 };
 
-/// What a text in a description is. A text that nothing is said of counts as a file's name, which visitors of the viewer may
-/// not set.
+/// What a text in a description is. By default a text counts as a file's name, which visitors of the viewer may not set.
 enum class TextOf { file, label };
 
+/// A row of a table: one key of the struct T.
 template <class T>
 struct Key {
-    std::string_view name;
+    std::string_view name;  // with the unit as its end: "distance_mm"
     typename MemberOf<T>::Type member;
-    Range range;  // of a number or of each in an array; unused for words and tables
-    bool required;
-    std::string_view doc;
-    std::string_view absent = {};  // what holds without the key, where the field's own default does not say it
-    TextOf text = TextOf::file;    // unused for what is no text
+    Range range;                   // of a number, or of each in an array; unused for words, texts and tables
+    bool required;                 // of a value: it must be given where its table is
+    std::string_view doc;          // the meaning, as docs/format.md prints it; empty for a table, whose `doc` says it
+    std::string_view absent = {};  // what holds without the key, where the default of the field does not say it
+    TextOf text = TextOf::file;    // unused for values that are not texts
 };
 
+/// The keys of the struct T, in the order in which they are written.
 template <class T>
 struct Table {
-    std::string_view name;  // its last part; of a kind: its word
-    std::string_view doc;
+    std::string_view name;  // the last part of its path, "layer" of [[panel.layer]]; of a kind its word, "ideal"
+    std::string_view doc;   // what the table describes
     std::span<const Key<T>> keys;
 };
 
@@ -126,9 +135,11 @@ inline constexpr bool has_table =
     is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole, Surface, LensArray, Errors,
               Diffuser, Camera, Content, Inverse, ContentLight, SceneObject, Render>;
 
-/// How a field of a struct is a table within it.
+/// What a field of a struct is: a value, a table, a table that may be absent, a list of tables, or one of several kinds, whose word
+/// and keys are in the same table.
 enum class PartKind { value, table, optional, list, kinds };
 
+/// The part kind of a field's type, and the struct that has the table.
 template <class T>
 struct Part {
     using Struct = T;
@@ -151,8 +162,7 @@ struct Part<std::variant<Kinds...>> {
 template <class Field>
 inline constexpr PartKind part_kind = Part<std::remove_cvref_t<Field>>::is;
 
-/// Structs that have tables or a kind within them. All others have values only; to know that saves half a minute of
-/// compilation.
+/// Whether a struct has tables or a kind within it. All others have values only; this knowledge saves half a minute of compilation.
 template <class T>
 inline constexpr bool has_parts = is_one_of<T, Display, Panel, Lens, SurfaceLens, Content>;
 
@@ -162,13 +172,13 @@ inline std::string_view table_of_path(std::string_view path) {
     return point == path.npos ? std::string_view() : path.substr(0, point);
 }
 
-/// A key's entry in its table, whatever struct it belongs to.
+/// A key's entry in its table, without the type of its struct.
 struct KeyInfo {
     std::string_view name;
     Range range;
     bool required;
     std::string_view doc, absent;
-    bool names_file;
+    bool names_file;  // its value is the name of a file or a list of such names
 };
 
 template <class V>
@@ -183,14 +193,14 @@ using ConstValueRef = ValuesOf<PointerToConst>;
 /// its word, then its own keys.
 void visit_all(const Display&,
                const std::function<void(const std::string& path, const KeyInfo&, ConstValueRef, ConstValueRef fresh)>& visit);
-/// Visits all keys; `visit` may change values, except a kind, whose keys follow.
+/// Visits all values in the same order; `visit` may change them, except a kind, whose keys follow.
 void visit_all(Display&, const std::function<void(const std::string& path, const KeyInfo&, ValueRef)>& visit);
 
-/// A table that a description may have, and its keys that are values, each with that of a fresh struct.
+/// A table that a description may have, and its keys that are values, each with the value of a fresh struct.
 struct FormatTable {
-    std::string path;  // of a kind that of the table in which its keys stand; of a list without numbers: "lens.surface"
+    std::string path;  // of a kind the path of the table that has its keys; of a list without numbers: "lens.surface"
     std::string_view name, doc;
-    PartKind is;
+    PartKind is;  // in the table above it
     struct Value {
         KeyInfo key;
         ConstValueRef fresh;
@@ -211,10 +221,11 @@ void visit_files(Display&, const std::function<void(const std::string& path, std
 /// one, at a table or list that has such a key, or at an element of one.
 bool decides_a_file(std::string_view path);
 
-/// Words of an enumeration in the order of its values, and of kinds.
+/// Returns the words of an enumeration in the order of its values, or of a variant of kinds in the order of its alternatives.
 template <class E>
 std::span<const std::string_view> words();
 
+/// Returns the word of a value, as a description has it.
 template <class E>
 std::string_view word(const E& value) {
     if constexpr (std::is_enum_v<E>)
@@ -227,7 +238,7 @@ std::string_view word(const E& value) {
 template <class Field>
 inline constexpr bool has_words = std::is_enum_v<Field> || part_kind<Field> == PartKind::kinds;
 
-/// The value that words<E>()[index] names; of kinds a fresh one.
+/// Sets the value that words<E>()[index] names; a kind becomes a fresh one of that word.
 template <class E>
 void set_word(E& value, std::size_t index) {
     if constexpr (std::is_enum_v<E>) {

@@ -1,5 +1,5 @@
-// How the array that was built differs from the one that a description asks for. Floor 0, public as a part of display.h: plain
-// data.
+// How the array as built differs from the one that a description asks for: docs/model.md, "Errors". Floor 0, public as a part of
+// display.h: plain data.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace lfdsim {
 
-/// The misalignment of one lens, in the array's frame: its body is turned about its viewer-side vertex, about x' and then about
-/// y', and moved.
+/// The misalignment of one lens, in the array's frame: its body is rotated about its viewer-side vertex, about x' and then about
+/// y', and moved. Random and given values are both of this form and are added.
 struct LensError {
     std::array<double, 2> aside_mm{};  // along x' and y'
     double height_mm = 0;              // towards the viewer
     std::array<double, 2> tilt_deg{};  // about x' and y', right-handed
-    double curvature = 0;              // e: every curvature times 1 + e, vertices and aspheric terms as they are
+    double curvature = 0;              // e: every curvature times 1 + e, an ideal lens's f over 1 + e; vertices and asphere stay
     bool operator==(const LensError&) const = default;
 };
 
@@ -26,14 +26,15 @@ struct GivenLensError {
     bool operator==(const GivenLensError&) const = default;
 };
 
+/// The table [errors] of a description.
 struct Errors {
     // Errors of the whole array
     std::array<double, 2> shift_mm{};   // along the panel's x and y
     double gap_mm = 0;                  // towards the viewer
     double rotation_deg = 0;            // counter-clockwise as the viewer sees it
-    double pitch_ppm = 0;               // the lenses stand so much further apart; they themselves are as large as they should be
-    std::array<double, 2> wedge_deg{};  // turn about the panel's x, then about its y, right-handed
-    double bow_mm = 0;                  // how much the middle of the array stands out over its corners
+    double pitch_ppm = 0;               // lens axes and cells are scaled by 1 + 1e-6 times this; the lenses keep their size
+    std::array<double, 2> wedge_deg{};  // rotation about the panel's x, then about its y, right-handed
+    double bow_mm = 0;                  // height of the array's middle above its corners, falling with the squared distance
 
     // Errors of each lens: standard deviations of normal distributions, redrawn beyond three of them
     double decenter_sd_mm = 0;  // along x' and y'
@@ -41,8 +42,8 @@ struct Errors {
     double tilt_sd_deg = 0;  // about x' and y'
     double curvature_sd = 0;
     std::int64_t seed = 0;
-    std::string table;                                         // CSV file of further ones, which are added
-    std::shared_ptr<const std::vector<GivenLensError>> given;  // what it says; shared by copies of a display
+    std::string table;                                         // CSV file of further errors of single lenses, which are added
+    std::shared_ptr<const std::vector<GivenLensError>> given;  // the lines of that file; shared by copies of a display
     bool operator==(const Errors&) const = default;
 };
 

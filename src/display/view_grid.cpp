@@ -31,7 +31,7 @@ std::vector<double> even_places(int n, double step) {
 }
 
 std::vector<double> cone_places(int n, double cone_deg, double distance_mm, ConeCameras cameras) {
-    const auto share = [&](int i) {  // of the cone, from its middle
+    const auto share = [&](int i) {  // of the cone's angle, from its middle: -1/2 to 1/2
         if (n == 1) return 0.;
         return cameras == ConeCameras::ends ? double(i) / (n - 1) - 0.5 : (i + 0.5) / n - 0.5;
     };
@@ -72,6 +72,7 @@ std::vector<Problem> faults_of(const ViewGrid& grid) {
     length("depth_mm", grid.depth_mm, any_length);
     if (!all.empty()) return all;
 
+    // The greatest distance off axis bounds the slope of a line from a camera to the focus's middle.
     double reach = 0;
     for (const auto& [x, y] : grid.camera_mm) {
         reach = std::max({reach, std::abs(x), std::abs(y)});
@@ -81,6 +82,7 @@ std::vector<Problem> faults_of(const ViewGrid& grid) {
         all.push_back({"baseline_mm", fmt::format("puts cameras {:.6g} mm off axis at a distance of {:.6g} mm; allowed is up to {} "
                                                   "times the distance. Give both in millimetres",
                                                   reach, grid.distance_mm, steepest_slope)});
+    // Columns rise and rows fall strictly, by a length that a description could state.
     const auto apart = [&](int columns, int rows, auto step) {
         for (int j = 0; j < rows; ++j)
             for (int i = 0; i < columns; ++i)
