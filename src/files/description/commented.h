@@ -1,4 +1,4 @@
-// A description as text with comments. Floor 2.
+// A description as text with comments, as first designs and imported lenses are written. Floor 2.
 #pragma once
 #include "files/description/values.h"
 
@@ -11,9 +11,10 @@
 
 namespace lfdsim {
 
-/// A description being written: keys, and comments in lines of at most a hundred columns.
+/// A description being written, in `all`: tables and their keys in the order of the calls, each after its comments.
 class CommentedText {
   public:
+    /// Adds a comment, wrapped at spaces into lines of at most a hundred columns.
     template <class... Values>
     void note(fmt::format_string<Values...> words, Values&&... values) {
         std::string text = fmt::format(words, std::forward<Values>(values)...);
@@ -36,14 +37,15 @@ class CommentedText {
         all += fmt::format("{} = {}\n", name, toml_text(value));
     }
     void table(std::string_view name) { all += fmt::format("\n[{}]\n", name); }
-    void list(std::string_view name) { all += fmt::format("\n[[{}]]\n", name); }  // an element of it
+    void list(std::string_view name) { all += fmt::format("\n[[{}]]\n", name); }  // begins an element of the list
 
     std::string all;
 };
 
-/// What first designs have in common: the beginning, and the panel with its pixels. In write_first_order.cpp.
+/// Returns the beginning that all first designs have: comments, schema and name. In write_first_order.cpp.
 CommentedText begun_design(const std::string& name, const std::string& made_by);
 struct Panel;
+/// Writes the table [panel] up to the pixel pitch of a panel with a diagonal of `inch` inches. In write_first_order.cpp.
 void write_panel_pixels(const Panel&, double inch, CommentedText&);
 
 }  // namespace lfdsim

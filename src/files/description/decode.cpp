@@ -5,6 +5,7 @@
 namespace lfdsim {
 namespace {
 
+/// Appends a code point as UTF-8.
 void append(std::string& text, std::uint32_t c) {
     if (c < 0x80) {
         text += char(c);
@@ -17,7 +18,7 @@ void append(std::string& text, std::uint32_t c) {
     }
 }
 
-/// Returns the length of a UTF-8 sequence that begins with this byte; 0: none does.
+/// Returns the length of the UTF-8 sequence that begins with this byte; 0 if none can.
 std::size_t utf8_length(unsigned char first) {
     if (first < 0x80) return 1;
     if (first >= 0xc2 && first < 0xe0) return 2;
@@ -25,7 +26,7 @@ std::size_t utf8_length(unsigned char first) {
     return first >= 0xf0 && first < 0xf5 ? 4 : 0;
 }
 
-/// Overlong forms, surrogates and what is beyond Unicode are not UTF-8.
+/// Whether all bytes are well-formed UTF-8: overlong forms, surrogates (U+D800 to U+DFFF) and codes above U+10FFFF are not.
 bool is_utf8(std::string_view bytes) {
     const auto at = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
     for (std::size_t i = 0; i < bytes.size();) {
@@ -41,6 +42,7 @@ bool is_utf8(std::string_view bytes) {
     return true;
 }
 
+/// Converts UTF-16 without its mark; an odd last byte is left out.
 std::string from_utf16(std::string_view bytes, bool big_endian) {
     const auto unit = [&](std::size_t i) {
         const auto a = static_cast<unsigned char>(bytes[i]), b = static_cast<unsigned char>(bytes[i + 1]);
@@ -67,7 +69,7 @@ std::string to_utf8(std::string_view bytes) {
     if (bytes.starts_with("\xfe\xff")) return from_utf16(bytes.substr(2), true);
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     if (is_utf8(bytes)) return std::string(bytes);
-    std::string text;
+    std::string text;  // the codes of Latin-1 are the first 256 of Unicode
     for (const char c : bytes) append(text, static_cast<unsigned char>(c));
     return text;
 }

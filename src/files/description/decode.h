@@ -1,4 +1,4 @@
-// Text of older programs in UTF-8. Floor 2.
+// Conversion of text that other programs wrote to UTF-8. Floor 2.
 #pragma once
 #include <string>
 #include <string_view>

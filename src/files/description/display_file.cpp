@@ -19,7 +19,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr std::int64_t known_schema = 1;
+constexpr std::int64_t known_schema = 1;  // the only version of the format so far
 
 // More than a person fixes at once: a file of another kind in TOML can hold a hundred thousand unknown keys.
 constexpr std::size_t most_problems_told = 50;
@@ -46,7 +46,8 @@ class DisplayReader {
     }
 
   private:
-    // A value that is missing or cannot be read: `where` is its key's dotted path, as validate() has it.
+    // Adds the fault of a value that is missing or cannot be read: `where` is its key's dotted path, as validate() has it. Where
+    // the kind is not known, one fault of a key is enough: kinds share keys.
     void add(std::string where, std::string what) {
         if (any_kind && is_wrong(where)) return;
         faults.push_back({std::move(where), std::move(what)});
@@ -54,7 +55,7 @@ class DisplayReader {
     bool is_wrong(std::string_view where) const {
         return std::any_of(faults.begin(), faults.end(), [&](const Problem& p) { return p.where == where; });
     }
-    // A key too many; it does not keep validate() from checking any value.
+    // Adds the fault of a key too many, which does not keep validate() from checking any value.
     void add_superfluous(SourcePosition place, std::string where, std::string what) {
         superfluous.push_back({std::move(place), std::move(where) + ": " + what});
     }
@@ -79,7 +80,7 @@ class DisplayReader {
         read_keys(from, prefix, values);
     }
 
-    // The names of a table's keys, those of all kinds among them.
+    // Adds the names of a table's keys, including those of all kinds.
     template <class T>
     static void add_known(std::vector<std::string_view>& known) {
         for (const Key<T>& key : table_of<T>().keys) {
@@ -100,7 +101,8 @@ class DisplayReader {
         (act(Kinds{}), ...);
     }
 
-    // Values are read through pointers of all types, so that this is compiled once and not for each struct.
+    // Reads the keys of a table. Values are read through pointers of all types, so that read_value_of() is compiled once and not
+    // for each struct.
     template <class T>
     void read_keys(const toml::table& from, const std::string& prefix, T& values) {
         for (const Key<T>& key : table_of<T>().keys) {
@@ -125,6 +127,7 @@ class DisplayReader {
         }
     }
 
+    // Reads a field that is a table, by its PartKind.
     template <class T, class Field>
     void read_part(const Key<T>& key, const toml::table& from, const std::string& prefix, Field& field) {
         static const toml::table nothing;  // an absent table is an empty one: required keys are missing, others have defaults
@@ -148,8 +151,8 @@ class DisplayReader {
         }
     }
 
-    // The kind decides which keys of its table have a meaning. Without it none can be called missing or meaningless, and values are
-    // read as those of any kind.
+    // Reads the word of a kind, which decides which keys of its table have a meaning, and those keys. Without a valid word none can
+    // be called missing or meaningless, and values are read as those of any kind.
     template <class T, class Kind>
     void read_kind(const Key<T>& key, const toml::table& from, const std::string& prefix, Kind& field) {
         const toml::node* node = from.get(key.name);
@@ -164,6 +167,7 @@ class DisplayReader {
         any_kind = false;
     }
 
+    // Refuses keys of other kinds that the kind read does not have, each once.
     template <class Kind>
     void refuse_other_kinds(const toml::table& from, const std::string& prefix, const Kind& field) {
         std::vector<std::string_view> known;
@@ -211,8 +215,8 @@ class DisplayReader {
                            [&](const FormatTable::Value& value) { return value.key.name == name; });
     }
 
-    // A path in a file is relative to where the file is, one on the command line, alone or in a table or list, to where it was
-    // typed.
+    // Makes the name of a file relative to the working directory. A name in the description is relative to the description's
+    // folder; one of an override, alone or within a table or list that the override gave, already is.
     void place(std::string_view key, std::string& path) const {
         if (folder.empty() || path.empty() || path.starts_with("built-in:")) return;
         for (; !key.empty(); key = table_of_path(key))
@@ -220,11 +224,12 @@ class DisplayReader {
         path = (folder / path).lexically_normal().string();
     }
 
+    // Reads the file of errors.table, unless its name or the array is known to be wrong.
     void read_lens_errors(Display& display) {
         constexpr const char* key = "errors.table";
         std::string& file = display.errors.table;
         if (file.empty() || is_wrong(key)) return;
-        // Which lenses there are is known if the array can be laid out.
+        // The table names lenses by their numbers, so these keys must be known.
         for (const char* needed : {"panel.pixels", "panel.pixel_pitch_mm", "array.pitch_mm", "array.count", "array.lattice"})
             if (is_wrong(needed)) return;
         try {
@@ -252,7 +257,7 @@ class DisplayReader {
         return catalogues;
     }
 
-    // Glasses that were given by name get their formulas.
+    // Gives glasses that were given by name their formulas.
     void look_up_glasses(Display& display) {
         const std::vector<GlassCatalogue> catalogues = read_catalogues(display.glass_catalogues);
         visit_all(display, [&](const std::string& path, const KeyInfo&, ValueRef value) {
@@ -266,13 +271,13 @@ class DisplayReader {
         });
     }
 
-    // Validates the values that could be read, and throws if any fault has been found. Places without a line, of overrides, come
-    // first: whoever gives a wrong option should not have to look for it below the file's own faults.
+    // Validates the values that could be read, and throws InputError if any fault has been found. Places without a line, of
+    // overrides, come first: whoever gives a wrong option should not have to look for it below the faults of the file.
     void judge(const Display& display) {
         Findings findings(faults);
         validate_all(display, findings, !is_wrong("glass_catalogues"));
         std::vector<Located> all = std::move(superfluous);
-        for (const Problem& fault : faults)  // an element's place is its list's
+        for (const Problem& fault : faults)  // the checks write elements as "[2]", and their place is that of the list
             all.push_back(
                 {source.place(std::string_view(fault.where).substr(0, fault.where.find('['))), fault.where + ": " + fault.what});
         if (all.empty()) return;
@@ -292,8 +297,8 @@ class DisplayReader {
     };
 
     const Source& source;
-    const std::filesystem::path& folder;  // of the file
-    bool any_kind = false;                // the kind being read is not known
+    const std::filesystem::path& folder;  // of the file; empty: names of files are left as they are
+    bool any_kind = false;                // the word of the kind being read is missing or wrong
     std::vector<Problem> faults;          // of keys that are missing or could not be read, by dotted path
     std::vector<Located> superfluous;
 };

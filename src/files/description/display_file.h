@@ -22,11 +22,12 @@ Display read_display(const std::filesystem::path&, const std::vector<std::string
 Display parse_display(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {},
                       const std::filesystem::path& folder = {});
 
-/// A description that reads back as the same display, wherever it lies: every key written, and glasses of catalogues by their
-/// coefficients, so that glass_catalogues is left out.
+/// Returns a description that reads back as the same display: every key that has a value, and glasses of catalogues by their
+/// coefficients, so that glass_catalogues is left out. Names of files are written as the display has them, relative to the working
+/// directory.
 std::string write_display(const Display&);
 
-/// Every key: name, type, unit, range, default, meaning; docs/format.md is generated from it.
+/// Returns the text of docs/format.md: name, type, unit, range, default and meaning of every key.
 std::string format_reference_markdown();
 
 }  // namespace lfdsim

@@ -7,7 +7,7 @@
 namespace lfdsim {
 namespace {
 
-// How a field is written in a file, by its type.
+// Each type_text() says how a field is written in a file, by its type.
 std::string_view type_text(const double&) { return "number"; }
 std::string_view type_text(const std::optional<double>&) { return "number"; }
 std::string_view type_text(const std::optional<std::int64_t>&) { return "integer"; }
@@ -27,6 +27,7 @@ std::string_view type_text(const std::optional<std::array<std::int64_t, 2>>&) { 
 template <class E>
 requires has_words<E> std::string_view type_text(const E&) { return "string"; }
 
+// Returns the column "allowed" of a key.
 template <class Value>
 std::string allowed_text(const Range& range, const Value&) {
     if constexpr (has_words<Value>)
@@ -39,7 +40,7 @@ std::string allowed_text(const Range& range, const Value&) {
         return range.text();
 }
 
-// Units stand in the keys' names, and only there.
+// Returns the unit of a key, which is the end of its name.
 std::string_view unit(std::string_view name) {
     if (name.ends_with("_per_mm")) return "1/mm";
     if (name.ends_with("_mm")) return "mm";
@@ -47,6 +48,7 @@ std::string_view unit(std::string_view name) {
     return name.ends_with("_deg") ? "degrees" : "";
 }
 
+// Appends a row for each key of a table that is a value.
 void append_values(std::string& text, const FormatTable& table) {
     for (const auto& [key, fresh] : table.values)
         std::visit(

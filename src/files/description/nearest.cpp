@@ -7,7 +7,8 @@
 namespace lfdsim {
 namespace {
 
-// Levenshtein's distance: insertions, deletions and replacements from a to b.
+// Returns Levenshtein's distance: the least number of insertions, deletions and replacements of letters from a to b. `row` has the
+// distances of the first i letters of a to all beginnings of b.
 std::size_t edits(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});

@@ -7,10 +7,11 @@
 
 namespace lfdsim {
 
-/// The candidate with the fewest letters to change; empty if that would be more than about half of the word.
+/// Returns the candidate that differs from the word by the fewest changes of letters; empty if none is near.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
-/// The candidates with the fewest letters to change, at most so many, the nearest first; those that are not near are left out.
+/// Returns the near candidates, the nearest first, at most `count`. Near is one that differs by at most size/2 + 1 insertions,
+/// deletions and replacements from a word of that size.
 std::vector<std::string_view> nearest(std::string_view word, std::span<const std::string_view> candidates, std::size_t count);
 
 }  // namespace lfdsim

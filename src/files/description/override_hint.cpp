@@ -15,6 +15,7 @@ namespace {
 
 enum class ValueForm { number, list, other };
 
+/// The form in which a value of a type is written; of `other` no hint is known.
 template <class Value>
 constexpr ValueForm form = has_words<Value>              ? ValueForm::other
                            : std::is_arithmetic_v<Value> ? ValueForm::number
@@ -41,7 +42,8 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// A decimal as people write it (".6", "6.", "+007"), in TOML's form; the rest of the text goes to `rest`.
+/// Returns, in TOML's form, the decimal with which a text begins as people write it (".6", "6.", "+007"); the rest of the text goes
+/// to `rest`. Nothing where the text begins with no finite number.
 std::optional<std::string> decimal(std::string_view text, std::string_view& rest) {
     const bool plus = text.starts_with('+');
     if (plus) text.remove_prefix(1);
@@ -52,7 +54,7 @@ std::optional<std::string> decimal(std::string_view text, std::string_view& rest
     return fmt::format("{}", value);
 }
 
-/// The unit in a key's name: "mm", "deg"; empty: the key has none.
+/// Returns the unit in a key's name, "mm" or "deg"; empty if the key has none.
 std::string_view unit_of_key(std::string_view path) {
     if (path.ends_with("_per_mm")) return "1/mm";
     if (path.ends_with("_mm")) return "mm";
@@ -60,6 +62,7 @@ std::string_view unit_of_key(std::string_view path) {
     return path.ends_with("_deg") ? "deg" : "";
 }
 
+/// Returns the hint for a number that is followed by the unit `given`.
 std::string with_unit(std::string_view path, const std::string& number, std::string_view given) {
     const std::string_view unit = unit_of_key(path);
     if (unit.empty()) return fmt::format("the value is a number without a unit; write {}", number);
@@ -67,7 +70,7 @@ std::string with_unit(std::string_view path, const std::string& number, std::str
     return fmt::format("numbers carry no unit, {} is in {}; write {}", path, unit, same ? number : "the number in it");
 }
 
-/// The numbers of "1,5" or "11, 6", if it is decimals separated by commas.
+/// Returns the numbers of a text such as "1,5" or "11, 6"; nothing unless all of it is decimals separated by commas.
 std::optional<std::vector<std::string>> decimals(std::string_view text) {
     std::vector<std::string> all;
     for (std::size_t start = 0;;) {
@@ -81,7 +84,8 @@ std::optional<std::vector<std::string>> decimals(std::string_view text) {
     }
 }
 
-/// ".6", "6.", "007": not what the parser refuses for another reason, such as too many digits.
+/// Whether a decimal lacks digits beside its point or has leading zeros (".6", "6.", "007"), which TOML refuses. Other decimals
+/// were refused for another reason, such as too many digits.
 bool half_written(std::string_view number) {
     if (number.starts_with('+') || number.starts_with('-')) number.remove_prefix(1);
     const std::size_t point = number.find('.');
@@ -90,6 +94,7 @@ bool half_written(std::string_view number) {
            (number.size() > 1 && number[0] == '0' && std::isdigit(static_cast<unsigned char>(number[1])));
 }
 
+/// Returns the hint for the value of a key that takes one number.
 std::string number_hint(std::string_view path, std::string_view value) {
     if (value.starts_with('"') || value.starts_with('\'')) {
         const std::string_view inside = trimmed(value.substr(1));

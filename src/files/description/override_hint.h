@@ -1,12 +1,12 @@
-// What to write in place of an override's value that is not TOML. Floor 2.
+// Hints for values that are not TOML, of overrides and of lines in a description: decimal commas, units, missing brackets. Floor 2.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace lfdsim {
 
-/// Explains a value that the parser refused, of the key at a dotted path ("lens.index", ".6"): what is wrong and what to write;
-/// empty if nothing is better than the parser's message.
+/// Explains a value that the parser refused, such as ".6" for the key "lens.index": what is wrong and what to write. Empty if the
+/// parser's message is better; `path` need not be a known key.
 std::string override_hint(std::string_view path, std::string_view value);
 
 }  // namespace lfdsim

@@ -18,9 +18,9 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double most_frames_per_second = 1000;
-constexpr std::size_t most_problems = 20;  // of a file whose every pose is wrong
+constexpr std::size_t most_problems = 20;  // reported of one file: each of its poses may be wrong
 
-/// Reads values and collects their faults.
+/// Reads values and collects their faults. What is refused is read as 0, so that all faults are found.
 class PathReader {
   public:
     explicit PathReader(std::string_view name) : name_(name) {}
@@ -34,7 +34,7 @@ class PathReader {
         if (!problems_.empty()) throw InputError(problems_);
     }
 
-    /// Whether it is an object of these keys; the first `required` of them must be there.
+    /// Whether a value is an object with the first `required` of these keys; any key that is not among them is refused, too.
     bool object(const Json& json, const std::string& place, std::span<const std::string_view> keys, std::size_t required) {
         if (!json.is_object()) {
             refuse(place, "is {}; give an object with {}", json.type_name(), fmt::join(keys, ", "));
@@ -75,7 +75,8 @@ class PathReader {
 constexpr std::string_view path_keys[] = {"schema", "frames_per_second", "poses"};
 constexpr std::string_view pose_keys[] = {"time_s", "position_mm", "target_mm"};
 
-// Times come from clocks and rounded decimals: a pose a millionth of a frame before a frame's time still ends in that frame.
+// Returns the path's length in frames. Times come from clocks and rounded decimals: a last pose up to a millionth of a frame before
+// the time of a frame still counts as at that frame.
 double frame_steps(const CameraPath& path) { return path.poses.back().time_s * path.frames_per_second + 1e-6; }
 
 Vec3d between(const Vec3d& a, const Vec3d& b, double share) {
@@ -115,6 +116,7 @@ CameraPath parse_path(std::string_view text, std::string_view name) {
         const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
         throw InputError(std::string(name), "is not a camera path in JSON: " + says.substr(begin, end - begin));
     }
+    // The head of the file.
     PathReader reader(name);
     CameraPath path;
     if (!reader.object(json, "the file", path_keys, 3)) reader.report();
@@ -123,6 +125,7 @@ CameraPath parse_path(std::string_view text, std::string_view name) {
     if (!(path.frames_per_second > 0 && path.frames_per_second <= most_frames_per_second))
         reader.refuse("frames_per_second", "is {}; allowed is more than 0, up to {}", path.frames_per_second,
                       most_frames_per_second);
+    // The poses, whose times rise from 0.
     const Json& poses = json["poses"];
     if (!poses.is_array() || poses.empty()) reader.refuse("poses", "give a list of one pose or more");
     for (std::size_t i = 0; poses.is_array() && i < poses.size(); ++i) {

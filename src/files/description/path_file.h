@@ -12,28 +12,30 @@
 
 namespace lfdsim {
 
+/// A position of the camera at one time, in the display's frame.
 struct CameraPose {
     double time_s = 0;
     Vec3d position_mm{};
     std::optional<Vec3d> target_mm;  // absent: that of the description
 };
 
-/// Where a camera is over time: straight from pose to pose.
+/// The position of a camera over time, interpolated linearly from pose to pose.
 struct CameraPath {
     double frames_per_second = 30;
-    std::vector<CameraPose> poses;  // at least one; times rise from 0
+    std::vector<CameraPose> poses;  // at least one; times rise strictly from 0
 
-    /// Frames k = 0, 1, ... stand at k / frames_per_second, up to the last pose.
+    /// Returns the number of frames: frame k = 0, 1, ... is at the time k / frames_per_second, up to the last pose.
     std::int64_t frames() const;
+    /// Returns the time of a frame, at most that of the last pose.
     double time_s(std::int64_t frame) const;
-    /// `described`, moved to its pose in that frame.
+    /// Returns the camera of a description, moved to its pose in a frame.
     Camera camera(std::int64_t frame, Camera described) const;
 };
 
 inline constexpr std::int64_t most_path_frames = 100'000;
 
 /// Reads a path: at most 1 MiB of JSON and most_path_frames frames. Throws InputError that names the file and the place in it
-/// ("poses[3].time_s"). Whether a display's camera can stand there is not checked.
+/// ("poses[3].time_s"). Whether a display's camera can be at the poses is not checked.
 CameraPath read_path(const std::filesystem::path&);
 
 /// Reads a camera path from text; `name` is the file's name in messages.

@@ -1,4 +1,4 @@
-// Quoting for a shell. Floor 2.
+// Quoting of words for a shell, for commands that messages and pages show. Floor 2.
 #pragma once
 #include "base/printable.h"
 
@@ -7,13 +7,13 @@
 
 namespace lfdsim {
 
-/// The word, in quotes if it has characters that are special to a shell.
+/// Returns the word, in quotes if it has characters that are special to a POSIX shell.
 inline std::string shell_word(std::string_view word) {
     const bool plain = !word.empty() && word.find_first_not_of(
                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                             "0123456789_-+=.,:/@%") == word.npos;
     if (plain) return std::string(word);
-    if (!is_printable(word)) {  // as bash and zsh write it, harmless wherever it is shown
+    if (!is_printable(word)) {  // $'...' of bash and zsh: without control characters, which a terminal would obey
         constexpr char digits[] = "0123456789abcdef";
         std::string escaped = "$'";
         for (const unsigned char c : word) {

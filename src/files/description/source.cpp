@@ -13,7 +13,7 @@
 namespace lfdsim {
 namespace {
 
-// The parts of a dotted path. No key of a description has a dot in it, so an override cannot name one.
+// Returns the parts of a dotted path. No key of a description has a dot in it, so an override cannot name one.
 std::vector<std::string_view> split(std::string_view path) {
     std::vector<std::string_view> parts;
     for (std::size_t start = 0;;) {
@@ -24,7 +24,7 @@ std::vector<std::string_view> split(std::string_view path) {
     }
 }
 
-// The index that a part of a path means in a list; none beyond its end, as an override changes elements and adds none.
+// Returns the index that a part of a path means in a list; none beyond its end, as an override changes elements and adds none.
 std::optional<std::size_t> element(std::string_view part, const toml::array& array) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
@@ -32,7 +32,7 @@ std::optional<std::size_t> element(std::string_view part, const toml::array& arr
     return index;
 }
 
-// No key is a number: in a table it means an element of a list that there is not.
+// Whether a part of a path is a number. No key is one: in a table it means an element of a list that does not exist.
 bool is_number(std::string_view part) { return !part.empty() && part.find_first_not_of("0123456789") == part.npos; }
 
 InputError no_element(std::string_view part) {
@@ -41,6 +41,7 @@ InputError no_element(std::string_view part) {
                             part)};
 }
 
+// Returns the child of a table or list that a part of a path names; null if there is none.
 template <class Node>  // toml::node or const toml::node
 Node* child(Node& node, std::string_view part) {
     if (auto* table = node.as_table()) return table->get(part);
@@ -49,7 +50,8 @@ Node* child(Node& node, std::string_view part) {
     return nullptr;
 }
 
-// The value of an override as a tree of its own, under the key "value".
+// Returns the value of an override as a separate tree, under the key "value". Throws toml::parse_error, or InputError for more than
+// one value.
 toml::table parse_value(std::string_view path, std::string_view value) {
     // Unquoted words save the user a second pair of quotes against the shell. The parser checks that they are UTF-8.
     if ((takes_word(path) || (takes_glass(path) && !value.starts_with('{'))) && !value.starts_with('"') && !value.starts_with('\''))
@@ -61,7 +63,8 @@ toml::table parse_value(std::string_view path, std::string_view value) {
     return holder;
 }
 
-// For a line that the parser refused: what to write in place of its value, where that is known; else the parser's words.
+// Returns what to write in place of the value of a line that the parser refused, where that is known; else `says`, the parser's
+// message. The lines before it are scanned for the last header, since the hint depends on the key's table.
 std::string hint_in(std::string_view text, std::size_t line, std::string_view says) {
     std::string table;
     for (std::size_t n = 1; n <= line && !text.empty(); ++n) {
@@ -126,7 +129,7 @@ void Source::apply(const std::string& override_text) {
     const std::vector<std::string_view> parts = split(path);
     if (parts.size() > 4) throw InputError("", fmt::format("the key has {} parts, allowed are 4", parts.size()));
 
-    // Missing tables on the way are created; values are not replaced by tables.
+    // Down to the table or list that has the key. Missing tables on the way are created; values are not replaced by tables.
     toml::node* node = &root_;
     const bool removes = value == "none" && !takes_word(path);
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
@@ -141,6 +144,7 @@ void Source::apply(const std::string& override_text) {
         if (!next->is_table() && !next->is_array()) throw InputError("", fmt::format("{} is a value, and has no parts", parts[i]));
         node = next;
     }
+    // "none" removes the key, except where it is a word that the key accepts ("panel.subpixels=none").
     if (removes) {
         if (toml::table* table = node->as_table())
             table->erase(parts.back());
@@ -149,6 +153,7 @@ void Source::apply(const std::string& override_text) {
         set_[std::string(path)] = override_text;
         return;
     }
+    // The new value takes the place of the old one.
     toml::table holder = parse_value(path, value);
     holder.get("value")->visit([&](auto& given) {
         if (toml::table* table = node->as_table(); table && !is_number(parts.back()))
@@ -166,7 +171,7 @@ SourcePosition Source::at(const toml::source_region& region) const {
 }
 
 SourcePosition Source::place(std::string_view path) const {
-    // Down the path as far as it exists. An override of any part of it also set everything below.
+    // Down the path as far as it exists. An override of any part of it has set everything below, too.
     const toml::node* node = &root_;
     std::string inside;
     for (const std::string_view part : split(path)) {
@@ -178,7 +183,7 @@ SourcePosition Source::place(std::string_view path) const {
         node = next;
     }
     if (node->source().begin.line) return at(node->source());
-    // a table that is not in the file was created by an override of something in it
+    // A table that is not in the file was created by an override of something in it.
     for (const auto& [key, text] : set_)
         if (key.starts_with(inside + ".")) return {"--set " + text};
     return {name_};

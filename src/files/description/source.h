@@ -11,24 +11,26 @@
 
 namespace lfdsim {
 
-/// Where a value was written: line and column in the file (0: nowhere in particular), or an override.
+/// Where a value was written: in the file or in an override.
 struct SourcePosition {
-    std::string text;  // "file:line:column", "--set key=value"
-    std::size_t line = 0, column = 0;
+    std::string text;                  // "file:line:column", "--set key=value", or the file's name alone
+    std::size_t line = 0, column = 0;  // from 1; 0: in an override, or nowhere in the file
 };
 
+/// The tree of a description's text. Paths are dotted, elements of lists are numbers from 0: "lens.surface.0.index".
 class Source {
   public:
-    /// Parses the text, which check_text() has passed, and applies the overrides ("dotted.key=value"). Throws InputError.
+    /// Parses the text, which check_text() has passed, and applies the overrides ("dotted.key=value") in their order. Throws
+    /// InputError: of the text the parser's first fault, else all faults of the overrides.
     Source(std::string_view text, std::string_view name, const std::vector<std::string>& overrides);
 
     const toml::table& root() const { return root_; }
 
-    /// Place of the value at a dotted path ("lens.surface.0.index"), or of the innermost part of the path that exists.
+    /// Returns the place of the value at a dotted path, or of the innermost part of the path that exists.
     SourcePosition place(std::string_view path) const;
-    /// Place of a key itself.
+    /// Returns the place of a key, which precedes its value; `path` is the key's.
     SourcePosition place(const toml::key& key, std::string_view path) const;
-    /// Whether an override gave the value, or took it away.
+    /// Whether an override gave the value at this path, or removed it. An override of a table that contains it does not count.
     bool is_set(std::string_view path) const { return set_.contains(std::string(path)); }
 
   private:
@@ -42,7 +44,7 @@ class Source {
 
 /// Whether the value at a dotted path is a word (a name, a file, a choice), which an override may give without quotes.
 bool takes_word(std::string_view path);
-/// Whether it is a glass: a name, which an override may give without quotes, or a table.
+/// Whether the value at a dotted path is a glass: a name, which an override may give without quotes, or a table.
 bool takes_glass(std::string_view path);
 
 }  // namespace lfdsim

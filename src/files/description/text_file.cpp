@@ -10,13 +10,14 @@
 namespace lfdsim {
 namespace {
 
-constexpr int deepest = 16;  // the format needs 3
+constexpr int deepest = 16;  // levels of nesting; a description needs 3
 
 [[noreturn]] void refuse_size(std::string_view name, std::uintmax_t bytes, std::size_t most, std::string_view kind) {
     throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}; is this {}?", bytes, most, kind));
 }
 
-// Where a string that starts at `i` ends: behind its closing quotes or, without them, at the end of the line or text.
+// Returns where a TOML string that starts at `i` ends: after its closing quotes or, without them, at the end of the line or text.
+// Three quotes enclose strings of several lines; only double quotes have escapes.
 std::size_t skip_string(std::string_view text, std::size_t i) {
     const char quote = text[i];
     const std::string_view fence = text.substr(i, 3);
@@ -47,7 +48,7 @@ std::string read_text(const std::filesystem::path& path, std::string_view kind, 
     if (!error && bytes > most_bytes) refuse_size(name, bytes, most_bytes, kind);
     std::ifstream file(path, std::ios::binary);
     if (!file) throw InputError(name, "cannot be opened for reading; check its permissions");
-    // No more is read, even if the file grows meanwhile.
+    // One byte more than the file's size is read, and no more even if the file grows meanwhile.
     std::string text(error ? most_bytes + 1 : std::size_t(bytes) + 1, '\0');
     file.read(text.data(), std::streamsize(text.size()));
     text.resize(std::size_t(file.gcount()));
@@ -61,7 +62,7 @@ void check_text(std::string_view text, std::string_view name) {
     if (text.find_first_not_of(" \t\r\n") == text.npos)
         throw InputError(std::string(name), "is empty; a display description starts with schema = 1");
     // The parser recurses into brackets, and into the tables of a dotted key when it frees them. This scan of strings, comments,
-    // brackets and dots finds how deep; it is right up to the text's first fault, where the parser stops.
+    // brackets and dots finds the depth; it is right up to the text's first fault, where the parser stops.
     int brackets = 0, dots = 0, line = 1;
     for (std::size_t i = 0, line_start = 0; i < text.size();) {
         const char c = text[i];

@@ -16,7 +16,7 @@ std::string wrong_type(const toml::node& node, std::string_view wanted) {
     return fmt::format("is {}; give {}", kind_of(node), wanted);
 }
 
-/// A formula of a glass, and what it takes in words.
+/// A formula of a glass, and the numbers that it takes, in words. nd and vd are two keys and no row here.
 struct GlassForm {
     Formula formula;
     std::string_view wanted;
@@ -107,6 +107,7 @@ std::string read_value(const toml::node& node, Glass& glass) {
     constexpr const char* forms =
         "{ sellmeier = [B1, C1, B2, C2, B3, C3] }, { cauchy = [A, B, C] }, { nd = 1.4918, vd = 57.4 } or another formula of "
         "docs/format.md";
+    // A name alone is looked up later, when all catalogues are known.
     glass = {};
     if (node.is_string()) {
         glass.name = node.as_string()->get();
@@ -119,6 +120,7 @@ std::string read_value(const toml::node& node, Glass& glass) {
         const std::string fault = value ? read_value(*value, to) : "is missing";
         return fault.empty() ? fault : fmt::format("{} {}", key, fault);
     };
+    // The keys: exactly one formula, and a name and a range at most.
     const auto has = [&](std::string_view key) { return table->contains(key); };
     std::size_t formulas = has("nd") || has("vd");
     for (const auto& entry : *table) {
@@ -135,6 +137,7 @@ std::string read_value(const toml::node& node, Glass& glass) {
                            : formulas == 0 ? "has no formula"
                                            : "has more than one formula",
                            forms);
+    // Name and range.
     std::string fault;
     if (has("name") && (fault = read("name", glass.name)).empty() && glass.name.size() > longest_name)
         fault = fmt::format("name has {} bytes, allowed are {}", glass.name.size(), longest_name);
@@ -142,6 +145,7 @@ std::string read_value(const toml::node& node, Glass& glass) {
         !(0 < glass.range_nm[0] && glass.range_nm[0] < glass.range_nm[1]))
         fault = "range_nm is not two wavelengths, the shorter first";
     if (!fault.empty()) return fault;
+    // The formula's coefficients.
     if (has("nd") || has("vd")) {
         glass.formula = Formula::nd_vd;
         glass.coefficients.assign(2, 0);
@@ -179,8 +183,8 @@ std::string read_word(const toml::node& node, std::span<const std::string_view> 
                        meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant));
 }
 
-// The shortest decimal that reads back as the same bits. TOML has inf and nan; a whole number comes out as an integer, which
-// is accepted for a number.
+// A number is written as the shortest decimal that reads back as the same bits. TOML has inf and nan; a whole number becomes an
+// integer, which is accepted for a number.
 std::string toml_text(double value) { return fmt::format("{}", value); }
 std::string toml_text(std::int64_t value) { return fmt::format("{}", value); }
 
@@ -194,13 +198,14 @@ std::string toml_text(const std::vector<std::string>& values) {
     return text + "]";
 }
 
-// By name where that says all: of a glass that ships, and of one not looked up yet.
 std::string toml_text(const std::vector<Vec3d>& points) {
     std::string text = "[";
     for (const Vec3d& point : points) text += (text.size() > 1 ? ", " : "") + toml_text(point);
     return text + "]";
 }
 
+// A glass that ships, and one that has not been looked up, are written by name; others by their coefficients, so that the text can
+// be read without the catalogue.
 std::string toml_text(const Glass& glass) {
     const ShippedGlass* shipped = shipped_glass(glass.name);
     if (glass.formula == Formula::unknown || (shipped && shipped->glass == glass)) return toml_text(glass.name);
@@ -215,7 +220,7 @@ std::string toml_text(const Glass& glass) {
     return text + " }";
 }
 
-// A basic string. TOML allows any UTF-8 in it but quotes, backslashes and control characters.
+// The text is a basic string of TOML, in which any UTF-8 is allowed except quotes, backslashes and control characters.
 std::string toml_text(const std::string& value) {
     std::string text = "\"";
     for (const char c : value) {

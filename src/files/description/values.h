@@ -1,4 +1,4 @@
-// Conversion of a TOML value to a field of a display, and back. Floor 2.
+// Conversion of a TOML value to a field of a display, and vice versa. Floor 2.
 #pragma once
 #include "base/counted.h"
 #include "display/keys.h"
@@ -10,11 +10,12 @@
 
 namespace lfdsim {
 
-/// What a value is, in words: "a string", "an integer".
+/// Returns what a value is, in words: "a string", "an integer".
 std::string_view kind_of(const toml::node&);
 
-// Each stores a value of the right type and returns an empty string, or a text: what was given and what to give. Ranges are
-// checked by validate(). Integers are accepted for real numbers, never the other way round.
+// Each read_value() stores a value of the right type and returns an empty string, or else a text, what was given and what to give,
+// that continues a sentence about the key: "is a string; give a number". Ranges are checked by validate(). Integers are accepted
+// for real numbers, real numbers never for integers.
 std::string read_value(const toml::node&, double&);
 std::string read_value(const toml::node&, std::int64_t&);
 std::string read_value(const toml::node&, std::string&);
@@ -23,6 +24,7 @@ std::string read_value(const toml::node&, std::vector<std::string>&);
 std::string read_value(const toml::node&, std::vector<Vec3d>&);
 std::string read_value(const toml::node&, Glass&);  // a name is not looked up
 std::string read_value(const toml::node&, Pitch&);
+/// Reads one of the words and stores its index; returns a text as read_value() does.
 std::string read_word(const toml::node&, std::span<const std::string_view> words, std::size_t& index);
 
 template <class E>
@@ -50,7 +52,7 @@ std::string read_value(const toml::node& node, std::optional<T>& value) {
     return read_value(node, value.emplace());
 }
 
-// A field in TOML syntax, every digit kept; empty for an absent optional.
+// Each toml_text() returns a field in TOML syntax that reads back as the same bits; empty for an absent optional.
 std::string toml_text(double);
 std::string toml_text(std::int64_t);
 std::string toml_text(const std::string&);

@@ -7,11 +7,11 @@ namespace lfdsim {
 std::string write_display(const Display& display) {
     std::string text = "schema = 1\n", table;
     visit_all(display, [&](const std::string& path, const KeyInfo& key, ConstValueRef ref, ConstValueRef) {
-        // an absent optional has no text, and a key without text is left out
+        // An absent optional has no text, and a key without text is left out.
         const std::string value = std::visit([](const auto* v) { return toml_text(*v); }, ref);
         if (value.empty() || path == "glass_catalogues") return;
         const std::string_view in = table_of_path(path);
-        if (in != table) {  // an element of a list ("lens.surface.0") has its list's name in two brackets
+        if (in != table) {  // the header of an element ("lens.surface.0") is the list's name in two brackets
             const std::size_t end = in.find_last_not_of("0123456789");
             text += end + 1 == in.size() ? fmt::format("\n[{}]\n", in) : fmt::format("\n[[{}]]\n", in.substr(0, end));
             table = in;

@@ -58,6 +58,7 @@ void write_lens(const FirstOrder& o, CommentedText& text) {
     text.key("index", *lens.index);
 }
 
+// Returns why the pitch is what it is, as a sentence. 3437.75 is arc minutes in a radian.
 std::string pitch_reason(const FirstOrder& o) {
     const double eye = o.eye_mm, L = *o.request.depth_mm;
     switch (o.pitch_rule) {

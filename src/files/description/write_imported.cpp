@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view surface_table = "lens.surface.";
 
-/// Where in the file the surface stands whose table this is; empty for other tables.
+/// Returns the place, in the lens file, of the surface that a table describes; empty for other tables.
 std::string_view place_of_surface(const Imported& made, std::string_view table) {
     std::size_t i = 0;
     if (!table.starts_with(surface_table)) return {};
@@ -27,10 +27,10 @@ std::string write_imported(const Imported& made, const std::vector<std::string>&
     visit_all(made.display, [&](const std::string& path, const KeyInfo& key, ConstValueRef ref, ConstValueRef fresh) {
         const auto written = [](ConstValueRef value) { return std::visit([](const auto* v) { return toml_text(*v); }, value); };
         const std::string value = path == "glass_catalogues" ? toml_text(catalogues) : written(ref);
-        // an absent optional has no text; what is as without the key is left out
+        // An absent optional has no text; a value that holds without its key is left out.
         if (value.empty() || (!key.required && value == written(fresh))) return;
         const std::string_view in = table_of_path(path);
-        if (in != table) {  // an element of a list ("lens.surface.0") has its list's name in two brackets
+        if (in != table) {  // the header of an element ("lens.surface.0") is the list's name in two brackets
             const std::size_t end = in.find_last_not_of("0123456789");
             end + 1 == in.size() ? text.table(in) : text.list(in.substr(0, end));
             if (const std::string_view place = place_of_surface(made, in); !place.empty()) text.note("{}", place);

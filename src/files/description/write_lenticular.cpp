@@ -4,6 +4,7 @@
 namespace lfdsim {
 namespace {
 
+// Returns why the display has its number of views, as a sentence.
 std::string reason_for_views(const Lenticular& o) {
     switch (o.views_rule) {
         case ViewsRule::asked:
@@ -53,6 +54,7 @@ void write_lens(const Lenticular& o, CommentedText& text) {
     text.key("index", *lens.index);
 }
 
+// Returns the formula of the gap, by what decided it.
 std::string reason_for_gap(const Lenticular& o) {
     if (o.request.sheet_mm)
         return fmt::format("g is the sheet's thickness over n, so that the field of view is {:.4g} degrees", o.fov_deg);
