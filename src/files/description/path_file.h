@@ -35,7 +35,7 @@ struct CameraPath {
 inline constexpr std::int64_t most_path_frames = 100'000;
 
 /// Reads a path: at most 1 MiB of JSON and most_path_frames frames. Throws InputError that names the file and the place in it
-/// ("poses[3].time_s"). Whether a display's camera can be at the poses is not checked.
+/// ("poses[3].time_s"). Whether a display's camera can stand there is not checked.
 CameraPath read_path(const std::filesystem::path&);
 
 /// Reads a camera path from text; `name` is the file's name in messages.

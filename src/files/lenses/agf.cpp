@@ -16,6 +16,9 @@ namespace {
 constexpr double nd_tolerance = 1e-4;  // printed values are rounded, some to four digits
 constexpr std::size_t most_agf_problems = 20, longest_glass_name = 64;
 
+// AGF is a text of lines that begin with a word of two letters. Read are "NM name formula code n_d V_d ...", which begins a glass,
+// "CD c0 c1 ..." with the coefficients of its formula, and "LD low high", the wavelengths in micrometres for which they hold.
+
 std::vector<std::string_view> words_of(std::string_view line) {
     constexpr std::string_view blanks = " \t";
     std::vector<std::string_view> words;
@@ -27,6 +30,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
     }
 }
 
+/// Returns the finite number that the whole word is; nothing if it is none.
 std::optional<double> number(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
     double value = 0;
@@ -41,17 +45,19 @@ struct AgfGlass {
     std::size_t line = 0;  // of its name
     int formula = 0;
     double nd = 0;                 // as printed; 1 or less: not given
-    std::vector<double> c;         // of CD; those that are missing are zero
-    std::vector<double> range_um;  // of LD
+    std::vector<double> c;         // of line CD; coefficients that are missing count as zero
+    std::vector<double> range_um;  // of line LD
 };
 
+/// Returns pairs of a coefficient and its power of the wavelength, as Formula::power_series has them.
 std::vector<double> with_powers(const std::vector<double>& c, std::initializer_list<double> powers) {
     std::vector<double> pairs;
     for (std::size_t k = 0; k < powers.size(); ++k) pairs.insert(pairs.end(), {c[k], powers.begin()[k]});
     return pairs;
 }
 
-/// AGF's formula number and its coefficients in the forms of Glass; unknown for numbers that the format does not have.
+/// Sets a glass's formula and coefficients by the number of AGF's formula (docs/model.md, "Colour"), which is 1 to 13. `e` has ten
+/// coefficients or more.
 void set_formula(const AgfGlass& e, Glass& glass) {
     const auto first = [&](Formula formula, std::size_t count) {
         glass.formula = formula;
@@ -115,7 +121,7 @@ class AgfReader {
     void add_problem(std::string_view key, const std::string& what) {
         problems_.push_back(key.empty() ? Problem{read_.file, what} : Problem{place(line_), fmt::format("{}: {}", key, what)});
     }
-    /// Adds a doubt about the glass whose lines have ended.
+    /// Adds a doubt about the glass that finish() examines.
     void doubt(const std::string& glass, const std::string& what) {
         read_.doubts.push_back({glass, {place(entry_.line), fmt::format("{}{}", shortened(glass), what)}});
     }
@@ -154,13 +160,14 @@ class AgfReader {
             return add_problem("NM",
                                fmt::format("\"{}\" is longer than the {} bytes allowed", shortened(words[1]), longest_glass_name));
         entry_.name = words[1];
-        const auto formula = number(words[2]);  // some write 2.0
+        const auto formula = number(words[2]);  // some catalogues write 2.0
         if (!formula) return add_problem("NM", fmt::format("\"{}\" is not the number of a formula", shortened(words[2])));
         if (*formula >= 1 && *formula <= 13 && *formula == std::floor(*formula)) entry_.formula = int(*formula);
         if (words.size() > 4) entry_.nd = number(words[4]).value_or(0);
     }
 
-    /// The glass whose lines have ended.
+    /// Adds the glass whose lines have ended to the catalogue, or a doubt why it is left out. A glass is kept only if its index in
+    /// the middle of its range is a number.
     void finish() {
         if (entry_.name.empty() || !problems_.empty()) return;
         Glass glass;
@@ -184,7 +191,7 @@ class AgfReader {
 
     GlassCatalogue read_;
     std::vector<Problem> problems_;
-    AgfGlass entry_;
+    AgfGlass entry_;  // the glass whose lines are being read; without a name before the first
     std::size_t line_ = 1, names_ = 0;
 };
 

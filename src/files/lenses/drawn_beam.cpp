@@ -6,12 +6,14 @@
 namespace lfdsim {
 namespace {
 
-// A paraxial ray's heights on the surfaces behind the object, and its optical slope n u in the end.
+// A paraxial ray in the order of light: its heights on all surfaces except object and image, and its optical slope n u after them.
 struct ParaxialRay {
     std::vector<double> height_mm;
     double slope;
 };
 
+// Traces a ray from the first surface on, which it reaches at a height and with a slope in air. At each surface n'u' = n u - c (n'
+// - n) y, and over the distance t to the next y' = y + t/n' (n'u').
 ParaxialRay paraxial_ray(const DrawnLens& lens, const std::vector<double>& indices, double height, double slope) {
     ParaxialRay ray{{}, slope};
     for (std::size_t i = 1; i + 1 < lens.surfaces.size(); ++i) {
@@ -29,17 +31,19 @@ bool fill_apertures(DrawnLens& lens, const std::vector<double>& indices) {
     const auto first = lens.surfaces.begin() + 1, end = lens.surfaces.end() - 1;
     const auto stop = std::find_if(first, end, [](const DrawnSurface& s) { return s.is_stop; });
     if (stop == end || !lens.beam.field_deg || !std::isinf(lens.surfaces.front().distance_mm)) return false;
+    // All paraxial rays are sums of these two: one parallel to the axis at the height 1, one through the first vertex of slope 1.
     const ParaxialRay high = paraxial_ray(lens, indices, 1, 0), steep = paraxial_ray(lens, indices, 0, 1);
     const auto at_stop = std::size_t(stop - first);
 
-    double pupil = 0;  // half its width
+    // The radius of the entrance pupil; the f-number is f/(2 pupil), 1/f = |n u| of the ray of height 1.
+    double pupil = 0;
     if (stop->semi_aperture_mm)
         pupil = *stop->semi_aperture_mm / std::abs(high.height_mm[at_stop]);
     else if (lens.beam.entrance_pupil_mm)
         pupil = *lens.beam.entrance_pupil_mm / 2;
     else if (lens.beam.f_number)
         pupil = 1 / std::abs(high.slope) / (2 * *lens.beam.f_number);
-    // The chief ray comes from the field's edge and meets the stop on the axis.
+    // The chief ray comes from the field's edge and meets the stop on the axis: its height at the first surface is `chief`.
     const double field = std::tan(*lens.beam.field_deg * std::acos(-1.0) / 180);
     const double chief = -field * steep.height_mm[at_stop] / high.height_mm[at_stop];
 

@@ -9,45 +9,47 @@
 
 namespace lfdsim {
 
-/// What fills the space behind a surface: a named glass, or an index.
+/// The medium after a surface: a named glass, or an index.
 struct DrawnMedium {
     std::string glass;         // as the file calls it; empty: none
-    double nd = 1;             // where no glass is named
+    double nd = 1;             // index at the d line, where no glass is named
     std::optional<double> vd;  // absent: the index is the same for all wavelengths
     bool is_air() const { return glass.empty() && nd == 1; }
     bool operator==(const DrawnMedium&) const = default;
 };
 
-/// A surface of revolution. Light comes from the side of negative sag.
+/// A surface of revolution in the frame of the file: light goes along +z, and sag is measured from the vertex along +z.
 struct DrawnSurface {
     std::string place;  // "lens.zmx:88: surface 3", as messages name it
     double curvature_per_mm = 0;
     double conic = 0;
     std::vector<double> even_asphere;        // a4, a6, ... without zeros at the end
-    double distance_mm = 0;                  // to the next surface; may be negative, or infinite where the object is
+    double distance_mm = 0;                  // to the next surface; may be negative, and infinite of the object
     DrawnMedium medium;                      // up to the next surface
-    std::optional<double> semi_aperture_mm;  // absent: the program finds it from the beam
-    bool is_hole = false;                    // it absorbs beyond the semi-aperture even where it is not glass
+    std::optional<double> semi_aperture_mm;  // absent: the design program finds it from the beam
+    bool is_hole = false;                    // the file gives it an aperture, which absorbs light even where there is no glass
     bool is_stop = false;
 };
 
-/// The light that a lens is drawn for.
+/// The light that a lens was designed for.
 struct DrawnBeam {
     std::optional<double> wavelength_nm;      // the main one
-    std::optional<double> entrance_pupil_mm;  // its diameter
+    std::optional<double> entrance_pupil_mm;  // diameter of the entrance pupil
     std::optional<double> f_number;           // for an object at infinity
     std::optional<double> field_deg;          // from the axis to the edge of the field
 };
 
+/// A lens of a file, in mm whatever the unit of the file.
 struct DrawnLens {
     std::string title;
-    std::vector<DrawnSurface> surfaces;  // in the order of light; the first is the object, the last the image
+    std::vector<DrawnSurface> surfaces;  // at least 3, in the order of light; the first is the object, the last the image
     DrawnBeam beam;
-    std::vector<std::string> notes;  // what was assumed, or not read though it could matter
+    std::vector<std::string> notes;  // sentences: what was assumed, or not read though it could matter
 };
 
-// Read text or bytes of Zemax (.zmx), Optiland (.json) and ray-optics (.roa); `name` stands for the file in messages. They throw
-// InputError with every problem and its place; what cannot be traced here is named and refused.
+// The parsers read text or bytes of Zemax (.zmx), Optiland (.json) and ray-optics (.roa); `name` is the file's name in messages.
+// They throw InputError with every problem and its place; what cannot be traced (mirrors, tilts, other shapes) is named and
+// refused. A new format needs a parser that fills a DrawnLens, a line in read_importable(), and a fuzzer.
 DrawnLens parse_zmx(std::string_view bytes, std::string_view name);
 DrawnLens parse_optiland(std::string_view text, std::string_view name);
 DrawnLens parse_rayoptics(std::string_view text, std::string_view name);
@@ -55,8 +57,8 @@ DrawnLens parse_rayoptics(std::string_view text, std::string_view name);
 /// Multiplies all lengths of the lens by a factor.
 void scale(DrawnLens&, double factor);
 
-/// A surface with a term in r^2 beside its conic, as both formats may have it, a2 in 1/mm. Whether it could be written without the
-/// term: two paraboloids add up to one.
+/// Removes a term a2 r^2 (a2 in 1/mm) that a format has beside the conic, by adding 2 a2 to the curvature: near the vertex sag is
+/// c r^2/2, and for a paraboloid (k = -1) or a plane everywhere. Returns false, and changes nothing, for other conics.
 bool fold_r2(DrawnSurface&, double a2);
 
 }  // namespace lfdsim

@@ -21,7 +21,7 @@ std::string in_capitals(std::string_view name) {
     return text;
 }
 
-/// Calls visit for each glass, the user's first.
+/// Calls visit for each glass, those of the user's catalogues first.
 template <class Visit>
 void visit_glasses(std::span<const GlassCatalogue> catalogues, const Visit& visit) {
     for (const GlassCatalogue& catalogue : catalogues)
@@ -40,7 +40,7 @@ const Glass* find_glass(std::string_view name, std::span<const GlassCatalogue> c
 }
 
 std::string unknown_glass(std::string_view name, std::span<const GlassCatalogue> catalogues) {
-    std::set<std::string> capitals;  // a glass may be in several
+    std::set<std::string> capitals;  // each name once: a glass may be in several catalogues
     visit_glasses(catalogues, [&](const Glass& glass) { capitals.insert(in_capitals(glass.name)); });
     const std::vector<std::string_view> near =
         nearest(in_capitals(name), std::vector<std::string_view>(capitals.begin(), capitals.end()), most_offered);

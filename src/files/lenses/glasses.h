@@ -1,4 +1,4 @@
-// Glasses by their names, in catalogues of the user's and in the one that ships. Floor 2.
+// Look-up of glasses by name, in the user's catalogues and among those that ship. Floor 2.
 #pragma once
 #include "display/display.h"
 #include "files/lenses/agf.h"
@@ -9,14 +9,15 @@
 
 namespace lfdsim {
 
-/// The glass of a name, whatever its case: the first in the catalogues in their order, or the one that ships; null if there is
-/// none.
+/// Returns the glass of a name, in any case of letters: the first in the catalogues in their order, else the one that ships; null
+/// if there is none. The pointer is into the catalogues.
 const Glass* find_glass(std::string_view name, std::span<const GlassCatalogue>);
 
-/// What is wrong with a name that find_glass() does not find, and which ones are near.
+/// Returns a message about a name that find_glass() does not find, with up to three names that are near.
 std::string unknown_glass(std::string_view name, std::span<const GlassCatalogue>);
 
-/// What is doubtful of the glasses that a display takes from its own catalogues, which are read again.
+/// Returns the doubts about glasses that a display takes from its glass_catalogues. The files are read again, and InputError is
+/// thrown where one cannot be.
 std::vector<Problem> doubts_of_glasses(const Display&);
 
 }  // namespace lfdsim

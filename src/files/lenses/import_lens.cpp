@@ -22,14 +22,14 @@
 namespace lfdsim {
 namespace {
 
-/// A medium as a description has it; neither: air.
+/// A medium as a description has it; without both it is air.
 struct LensMedium {
     std::optional<double> index;
     std::optional<Glass> glass;
     bool operator==(const LensMedium&) const = default;
 };
 
-/// Further away than this, mm, an object is as good as at infinity; programs write such numbers for it.
+/// An object at this distance or further, mm, counts as at infinity; programs write such numbers for it.
 constexpr double infinite_mm = 1e9;
 
 /// Returns a number without the noise of the last digits that scaling leaves.
@@ -39,11 +39,13 @@ double tidy(double x) {
     return x;
 }
 
+// Makes a display of a lens in steps, each of which stops with all of its faults.
 class LensImport {
   public:
     LensImport(DrawnLens l, const ImportRequest& r) : lens(std::move(l)), request(r), notes(lens.notes) {}
 
     Imported import() {
+        // The lens in the display's lengths, its media, and the surfaces and apertures that count.
         double& object = lens.surfaces.front().distance_mm;
         if (std::abs(object) >= infinite_mm) object = infinity;
         scale(lens, request.scale);
@@ -52,6 +54,7 @@ class LensImport {
         find_media();
         if (kept_surfaces()) give_apertures();
         report();
+        // The display.
         Imported made;
         made.what = "A lens from a lens design program, and a display for it";
         made.display.name = lens.title;
@@ -81,6 +84,7 @@ class LensImport {
                std::find(catalogue.glasses.begin(), catalogue.glasses.end(), *medium.glass) != catalogue.glasses.end();
     }
 
+    // Finds the medium after each surface and its index at the file's main wavelength. Object and image must be in air.
     void find_media() {
         for (const DrawnSurface& s : lens.surfaces) media.push_back(medium_of(s));
         const double nm = lens.beam.wavelength_nm.value_or(d_line_nm);
@@ -98,6 +102,7 @@ class LensImport {
                                         lens.beam.wavelength_nm ? "" : ", as far as is known"));
     }
 
+    // Returns the medium after a surface. An unknown glass is refused once, and read as index 1.5 so that all faults are found.
     LensMedium medium_of(const DrawnSurface& s) {
         const DrawnMedium& drawn = s.medium;
         if (drawn.is_air()) return {};
@@ -117,7 +122,8 @@ class LensImport {
         return {1.5, {}};
     }
 
-    // Surfaces that bend or stop light, by their number. Others are planes for reference, which only take up space. False: none is.
+    // Finds the surfaces that refract or stop light; others only take up space. Returns false, which is refused, where there is no
+    // glass or too many surfaces are left.
     bool kept_surfaces() {
         std::vector<std::string> left_out;
         for (std::size_t i = 1; i + 1 < lens.surfaces.size(); ++i) {
@@ -142,6 +148,7 @@ class LensImport {
         return bends && kept.size() <= max_surfaces;
     }
 
+    // Gives each kept surface a semi-aperture: the file's, else that of the request, else that of the file's beam.
     void give_apertures() {
         std::vector<std::string> without;
         for (const std::size_t i : kept)
@@ -168,15 +175,15 @@ class LensImport {
         }
     }
 
-    double between(std::size_t from,
-                   std::size_t to) const {  // along the axis; a surface is as far from the next one as all media are
+    // Returns the distance along the axis between two of the file's surfaces, over those that are left out.
+    double between(std::size_t from, std::size_t to) const {
         double sum = 0;
         for (std::size_t i = from; i < to; ++i) sum += lens.surfaces[i].distance_mm;
         return sum;
     }
 
-    // The lens from the panel's side to the viewer's. Light is drawn from the object to the image, which is where the panel stands,
-    // so the file's order and its axis are turned round, unless the lens is flipped.
+    // Returns the lens from the panel's side to the viewer's. The panel is at the file's image, the end of the file's light, so
+    // order and axis are reversed and curvatures and aspheric terms change their sign, unless the lens is flipped.
     SurfaceLens surface_lens(std::vector<std::string>& places) {
         SurfaceLens made;
         for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -190,7 +197,8 @@ class LensImport {
             surface.semi_aperture_mm = tidy(*s.semi_aperture_mm);
             places.push_back(s.place + (s.is_stop ? ", the stop" : ""));
             if (k + 1 == kept.size()) continue;
-            // the space to the next surface here is the one behind this surface in the file, or behind that one
+            // The space to the next surface is, in the file, the one after this surface (flipped) or after the next one (not
+            // flipped).
             const std::size_t behind = request.flip ? i : kept[at - 1], next = request.flip ? kept[at + 1] : i;
             surface.index = media[behind].index;
             surface.glass = media[behind].glass;
@@ -202,15 +210,16 @@ class LensImport {
         return made;
     }
 
-    // The panel, the array, the eye and what stands between them.
+    // Adds panel, array, eye and diffuser to the lens, by the request and by rules of first designs.
     void furnish(Display& d) {
+        // The panel, and lenses as far apart as they are wide. The lens is checked before its gap is computed.
         d.panel.pixels = request.pixels;
         d.panel.pixel_pitch_mm =
             to_nanometre(25.4 * request.panel_inch / std::hypot(double(request.pixels[0]), double(request.pixels[1])));
         double widest = 0;
         for (const Surface& s : d.lens.as<SurfaceLens>().surfaces) widest = std::max(widest, s.semi_aperture_mm);
         d.array.pitch_mm = request.pitch_mm.value_or(2 * widest);
-        d.array.gap_mm = longest_mm;  // until the lens is known to be one
+        d.array.gap_mm = longest_mm;  // until the lens is valid
         judge(d, "lens.");
         d.array.gap_mm = gap(d);
         d.camera.position_mm = {0, 0, request.distance_mm};
@@ -220,6 +229,7 @@ class LensImport {
         notes.push_back(fmt::format("Assumed: a panel of {:g} inches with {} x {} pixels, an eye at {:g} mm{}.", request.panel_inch,
                                     request.pixels[0], request.pixels[1], request.distance_mm,
                                     request.pitch_mm ? "" : ", a pitch as wide as the lens"));
+        // An eye near the lenses has a pupil; one further away looks through a diffuser.
         const Geometry g = resolve_unchecked(d);
         const double room = request.distance_mm - g.vertex_plane_mm, depth = theory(d, g).central_depth_mm;
         if (request.distance_mm < nearest_sight_mm) {
@@ -229,6 +239,7 @@ class LensImport {
             return;
         }
         Diffuser& diffuser = d.diffuser.emplace();
+        // The angle of a lens pitch from the diffuser at the distance d, 2 atan(p / 2d), closes the gaps between lenses.
         diffuser.distance_mm = rounded(std::min(std::abs(depth), room / 4));
         diffuser.angle_deg.fill(rounded(2 * std::atan(d.array.pitch_mm[0] / (2 * diffuser.distance_mm)) / degree));
         notes.push_back(
@@ -245,6 +256,7 @@ class LensImport {
                          fmt::format("The lens diverges (focal length {:.6g} mm): it forms no real image of the panel at any gap.",
                                      c.focal_length_mm));
         if (request.gap_mm) return *request.gap_mm;
+        // From the panel to the lens's first surface, and from that to the principal plane.
         const std::size_t last = lens.surfaces.size() - 1;
         const double to_image = between(kept.back(), last), to_object = between(0, kept.front());
         if (const double distance = request.flip ? to_object : to_image; std::isfinite(distance)) {
@@ -267,10 +279,11 @@ class LensImport {
         }
         notes.push_back(fmt::format("The file's {} is at infinity: the panel is in the lens's focal plane.",
                                     request.flip ? "object" : "image"));
-        return c.focal_length_mm;  // to the last bit, so that the lens collimates
+        return c.focal_length_mm;  // exactly, so that the lens collimates
     }
 
-    // Of a key of a surface, "lens.surface.2.index". The space behind it here is behind the other surface in the file.
+    // Returns the place in the file that a key of a surface, "lens.surface.2.index", comes from. Unless the lens is flipped, the
+    // space after a surface of the display is, in the file, after the neighbour.
     const std::string& place_of(std::string_view key) const {
         std::size_t k = 0;
         const std::string_view number = key.substr(std::string_view("lens.surface.").size());
@@ -280,6 +293,7 @@ class LensImport {
         return lens.surfaces[kept[of_space && !request.flip && at > 0 ? at - 1 : at]].place;
     }
 
+    // Notes a display with few lenses or few pixels behind each.
     void warn(const Display& d) {
         const Geometry g = resolve_unchecked(d);
         const std::int64_t across = std::min(g.lattice.count[0], g.lattice.count[1]);
@@ -291,7 +305,8 @@ class LensImport {
                 fmt::format("Only {:.3g} pixels lie behind a lens; --scale makes lenses larger, --pixels pixels smaller.", views));
     }
 
-    // What the description's checks find, at the file's place or the option that set it.
+    // Throws what the checks of a description find about the keys of a table ("lens."; "": of all), each at the place in the file
+    // or with the options that it comes from.
     void judge(const Display& d, std::string_view table) {
         for (Problem& p : validate(d)) {
             if (!p.where.starts_with(table)) continue;
@@ -312,12 +327,12 @@ class LensImport {
     DrawnLens lens;
     const ImportRequest& request;
     std::vector<std::string> notes;
-    std::vector<LensMedium> media;  // behind each surface of the file
-    std::vector<double> indices;    // of them
+    std::vector<LensMedium> media;  // after each surface of the file
+    std::vector<double> indices;    // of these media, at the file's main wavelength
     std::vector<std::size_t> kept;  // the file's numbers of the lens's surfaces
     bool by_beam = false;           // semi-apertures follow from the file's beam
     std::set<std::string> unknown;  // glasses that no catalogue has
-    std::set<std::string> taken;    // and those that the user replaces
+    std::set<std::string> taken;    // glasses that the user replaces
     std::vector<Problem> problems;
 };
 

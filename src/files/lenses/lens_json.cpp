@@ -10,10 +10,11 @@
 namespace lfdsim {
 namespace {
 
-// Words of the same length, so that places in messages stay right.
+// Python's words, each with a JSON text of the same length, so that the parser's places in messages stay right.
 constexpr std::pair<std::string_view, std::string_view> bare_words[] = {
     {"-Infinity", "\"-Infin.\""}, {"Infinity", "\"Infin.\""}, {"NaN", "\"N\""}};
 
+// Replaces Python's words outside of strings.
 std::string without_bare_words(std::string text) {
     bool inside = false;  // a string
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,4 +1,4 @@
-// What the readers of lenses and calibrations in JSON share: members that may be absent, and faults with their places. Floor 2.
+// The base of the readers of lenses and calibrations in JSON: members that may be absent, and faults with their places. Floor 2.
 #pragma once
 #include "files/lenses/drawn_lens.h"
 
@@ -14,17 +14,18 @@ namespace lfdsim {
 
 using LensJson = nlohmann::json;
 
-/// Python writes Infinity and NaN, which JSON has not; they become words. Throws InputError where the text is no JSON, or more than
-/// 1 MiB.
+/// Parses JSON in which Python may have written Infinity and NaN, which JSON does not have: they become words that number()
+/// understands. Throws InputError where the text is not JSON, or has more than 1 MiB.
 LensJson parse_lens_json(std::string_view text, std::string_view name);
 
-/// A member of an object; null if it is absent, or if that is no object.
+/// Returns a member of an object; null if it is absent, or if the value is not an object.
 const LensJson& member(const LensJson&, std::string_view key);
+/// Whether a value is a boolean and true.
 bool is_true(const LensJson&);
-/// A word, or what stands in its place, as a message may quote it.
+/// Returns a text, or the JSON or type of any other value, shortened so that a message may quote it.
 std::string word_of(const LensJson&);
 
-/// Collects the faults of a file.
+/// Collects the faults of a file, and throws them as one InputError when there are 20.
 class JsonReader {
   protected:
     explicit JsonReader(std::string_view file) : name(file) {}
@@ -34,11 +35,11 @@ class JsonReader {
         problems.push_back({fmt::format("{}: {}", name, place), fmt::format(what, std::forward<Values>(values)...)});
         if (problems.size() >= 20) throw InputError(std::move(problems));
     }
-    /// 0 if there is none, which is then refused.
+    /// Returns the number; refuses other values and returns 0.
     double number(const LensJson&, const std::string& place, bool may_be_infinite = false);
-    /// The list itself, of so many elements to 1000.
+    /// Returns the value, which must be a list of `least` to 1000 elements. Throws InputError otherwise.
     const LensJson& list(const LensJson&, const std::string& place, std::size_t least) const;
-    /// Throws InputError with all that is wrong, if anything is.
+    /// Throws InputError with all faults, if there are any.
     void report() const;
 
     std::string name;
@@ -51,7 +52,7 @@ class JsonReader {
 class LensJsonReader : protected JsonReader {
   protected:
     using JsonReader::JsonReader;
-    /// The lens, or all that is wrong.
+    /// Returns the lens, or throws like report().
     DrawnLens done();
 
     DrawnLens lens;

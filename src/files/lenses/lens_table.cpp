@@ -37,6 +37,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     }
 }
 
+// Reads lines and collects their faults, with the number of the line.
 class TableReader {
   public:
     TableReader(std::string_view text, std::string name, const Display& d)
@@ -104,6 +105,7 @@ class TableReader {
         return problems_.empty();
     }
 
+    // Reads the line of one lens; of a line with a fault, only the first one is reported.
     void read_lens(std::string_view line) {
         const std::vector<std::string_view> words = cells_of(line);
         if (words.size() != column_count) return refuse("has {}, the header {}", counted(words.size(), "value"), column_count);
@@ -116,6 +118,7 @@ class TableReader {
                 return refuse("{} is \"{}\"; give a finite number", table_columns[order_[k]], shortened(words[k]));
             if (std::abs(value) > 1e6) return refuse("{} is {}; at most 1e6", table_columns[order_[k]], value);
         }
+        // The lens must be one of the array, and strips have no error along their axes.
         for (std::size_t k = 0; k < 2; ++k) {
             if (values[k] != std::floor(values[k]))
                 return refuse("{} is {}; lenses are counted in whole numbers", table_columns[k], values[k]);
@@ -142,12 +145,12 @@ class TableReader {
                           fmt::format("lens ({}, {}) is also in line {}", rows_[k].lens.i, rows_[k].lens.j, rows_[k - 1].line));
     }
 
-    std::string_view text_;  // what is not read yet
+    std::string_view text_;  // the part that has not been read
     std::string name_;
     bool strips_;
     std::array<std::int64_t, 2> count_;
     std::size_t line_ = 0;
-    std::vector<std::size_t> order_;  // of the columns in the file
+    std::vector<std::size_t> order_;  // for each column of the file, its index in table_columns
     std::vector<TableRow> rows_;
     std::vector<Problem> problems_;
 };

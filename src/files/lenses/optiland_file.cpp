@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Optiland's .json: what the `to_dict()` of its Optic gives. Lengths are in mm, wavelengths in micrometres; a surface stands at its
-// own place in a frame whose z is the axis.
+// Optiland's .json, which the `to_dict()` of its Optic returns. Lengths are in mm, wavelengths in micrometres; each surface has a
+// position in a frame whose z is the axis.
 namespace lfdsim {
 namespace {
 
@@ -48,6 +48,7 @@ class OptilandReader : LensJsonReader {
             coated += fmt::format("{}{}", coated.empty() ? "" : ", ", i);
     }
 
+    // Reads the position of a surface, which must be on the axis and upright; the object may be at infinity.
     void read_place(const LensJson& frame, const std::string& place, bool is_object) {
         for (const char* key : {"x", "y", "rx", "ry"})
             if (const double shift = number(member(frame, key), place + "." + key); shift != 0)
@@ -57,6 +58,7 @@ class OptilandReader : LensJsonReader {
         z_mm.push_back(number(member(frame, "z"), place + ".z", is_object));
     }
 
+    // Reads curvature, conic constant and the coefficients of r^2, r^4, ...
     void read_shape(const LensJson& shape, const std::string& place, DrawnSurface& s) {
         const std::string type = word_of(member(shape, "type"));
         if (type == "Plane") return;
@@ -100,6 +102,7 @@ class OptilandReader : LensJsonReader {
             s.semi_aperture_mm = radius, s.is_hole = true;
     }
 
+    // Reads pupil or f-number, field and main wavelength, as far as they are of a kind that fill_apertures() can use.
     void read_beam(const LensJson& json) {
         const LensJson& aperture = member(json, "aperture");
         const std::string type = word_of(member(aperture, "type"));
@@ -119,8 +122,8 @@ class OptilandReader : LensJsonReader {
                 lens.beam.wavelength_nm = number(member(wave, "value"), "wavelengths") * 1000;
     }
 
-    std::vector<double> z_mm;
-    std::string coated;
+    std::vector<double> z_mm;  // of each surface's vertex
+    std::string coated;        // numbers of surfaces with coatings, for a note
 };
 
 }  // namespace

@@ -4,12 +4,14 @@
 #include <cctype>
 
 // The .roa of ray-optics: objects are {"__instance_type__": [module, class], "attributes": {...}}. Interfaces and the gaps between
-// them are lists; the shape of an interface is that of its profile_id in a dictionary.
+// them are lists; the shape of an interface is the profile that its profile_id names in a dictionary. Lengths are in a unit that
+// the file names last, so the lens is scaled at the end.
 namespace lfdsim {
 namespace {
 
 const LensJson& attributes(const LensJson& object) { return member(object, "attributes"); }
 
+// Returns the class of an object; of anything else its text.
 std::string class_of(const LensJson& object) {
     const LensJson& names = member(object, "__instance_type__");
     return names.is_array() && names.size() == 2 ? word_of(names[1]) : word_of(object);
@@ -57,10 +59,11 @@ class RayOpticsReader : LensJsonReader {
         for (const LensJson& aperture : member(its, "clear_apertures")) read_aperture(aperture, place, s);
     }
 
+    // Reads curvature cv, conic constant (cc, or ec = k + 1) and polynomial coefficients of a profile.
     void read_profile(const LensJson& json, const std::string& place, DrawnSurface& s) {
         const std::string type = class_of(json);
         const LensJson& its = attributes(json);
-        const bool all_powers = type == "RadialPolynomial";  // from r on; else from r^2 on in steps of two
+        const bool all_powers = type == "RadialPolynomial";  // coefficients of r, r^2, r^3, ...; else of r^2, r^4, ...
         if (type != "Spherical" && type != "Conic" && type != "EvenPolynomial" && !all_powers)
             return refuse(place, "has a profile of type {}, which cannot be imported; Spherical, Conic and EvenPolynomial can",
                           type);
@@ -94,6 +97,7 @@ class RayOpticsReader : LensJsonReader {
         s.is_hole = true;
     }
 
+    // Reads thickness and medium of the space after the last interface that was read.
     void read_gap(const LensJson& gap, const std::string& place) {
         DrawnSurface& s = lens.surfaces.back();
         s.distance_mm = number(member(gap, "thi"), place + ".thi");

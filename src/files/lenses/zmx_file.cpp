@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_problems_of_zmx = 20, most_surfaces_of_zmx = 1000;
 
-// Nothing here needs them: names and notes, how the program draws, analyses and optimises, and which values it solved for.
+// Keywords that change no ray: names and notes, how the program draws, analyses and optimises, and which values it solved for.
 constexpr std::string_view harmless[] = {
     "NAME", "NOTE", "AUTH", "COMM", "LANG", "PFIL", "VERS", "ENVD", "GFAC", "GCAT", "RAIM", "PUSH", "SDMA", "ROPD", "PICB",
     "FWGN", "FWGT", "VANN", "VDXN", "VDYN", "VCXN", "VCYN", "ZVAN", "ZVDX", "ZVDY", "ZVCX", "ZVCY", "POLS", "GLRS", "GSTD",
@@ -28,17 +28,18 @@ constexpr std::string_view harmless[] = {
     "MEMA", "OEMA", "MAZH", "XDAT", "HYPR", "OMMA", "WWGN", "WWGT", "TOL",  "MOFF", "RCMF", "BLNK", "FLOA", "EERA", "IWDP",
     "LUID", "SSID", "STUD", "FRAM", "DBDT", "SDIA", "CHIP", "UNDO", "CWGT", "WAVN", "XFLD", "YFLD"};
 
-// An aperture that is no circle about the axis.
+// Apertures other than a circle about the axis.
 constexpr std::string_view other_apertures[] = {"SQAP", "SQOB", "ELAP", "ELOB", "OBSC", "SPID", "UDAD", "UDAP", "UDOB", "USAP"};
 
 struct ZmxSurface {
     DrawnSurface drawn;
-    std::size_t line = 0;
+    std::size_t line = 0;  // of its SURF
     std::string type = "STANDARD";
     bool has_curvature = false, has_distance = false;
-    std::array<double, 8> parameters{};  // PARM 1 .. 8
+    std::array<double, 8> parameters{};  // PARM 1 to 8: of EVENASPH the coefficients of r^2, r^4, ..., r^16
 };
 
+// Reads lines one by one, each keyword by its function in the tables of words below; surfaces are checked when all lines are read.
 class ZmxReader {
   public:
     ZmxReader(std::string_view all, std::string_view file) : text(all), name(file) {}
@@ -81,7 +82,7 @@ class ZmxReader {
         if (std::ranges::find(other_apertures, key) != std::end(other_apertures))
             return refuse(line, "{}{} is an aperture other than a circle about the axis; only such circles can be imported", here(),
                           key);
-        // Behind the surfaces stand the words of the merit function and the tolerances, which are many.
+        // Words after the surfaces are those of the merit function and the tolerances, and are not listed as unread.
         if ((surfaces.empty() || in_surface) && std::ranges::find(harmless, key) == std::end(harmless) && unread.size() < 20)
             unread.push_back(fmt::format("{} (line {})", shortened(key), line));
     }
@@ -103,8 +104,8 @@ class ZmxReader {
         surfaces.back().drawn.place = fmt::format("{}:{}: surface {}", name, line, number);
     }
 
-    // The number at a place of the line; 0 if there is none that is finite, which is then refused. A decimal comma is one of
-    // Zemax's own in some languages.
+    // Returns the number at a position in the line; refuses any other word, or none, and returns 0. Zemax writes decimal commas in
+    // some languages.
     double number(std::size_t i) {
         std::string given(i < words.size() ? words[i] : "");
         std::ranges::replace(given, ',', '.');
@@ -142,8 +143,9 @@ class ZmxReader {
             refuse(line, "{}PARM {} is not a coefficient; PARM 1 to 8 are", here(), shortened(words[1]));
     }
     void read_stop() { surface().drawn.is_stop = true; }
-    // What surfaces of the same size are drawn with; 0 where nothing determines it.
+    // DIAM is the semi-diameter with which the program draws the surface; 0 where nothing determines it.
     void read_diameter() { limit(number(1)); }
+    // CLAP and FLAP are circular apertures, "CLAP inner outer"; outside of them light is absorbed.
     void read_aperture() {
         if (number(1) != 0)
             refuse(line, "{}{} has a central obscuration; only full circles can be imported", here(), words[0]);
@@ -155,8 +157,8 @@ class ZmxReader {
         if (semi_aperture > 0) semi = std::min(semi.value_or(semi_aperture), semi_aperture);
     }
 
-    // "GLAS name kind from n_d V_d": of a catalogue's glass the numbers are mostly fillers, 1.5 and 40. Kind 1 is a glass of these
-    // numbers; 2 is that of another surface, with a name if that has one; 4 is a glass with an offset.
+    // A line is "GLAS name kind from n_d V_d". The numbers of a catalogue's glass are mostly fillers, 1.5 and 40. Kind 1 is a glass
+    // of these numbers; 2 is that of another surface, with a name if that has one; 4 is a glass with an offset.
     void read_glass() {
         const std::string_view glass = words.size() > 1 ? words[1] : "";
         const std::string_view kind = words.size() > 2 ? words[2] : "0";
@@ -172,6 +174,7 @@ class ZmxReader {
         medium.nd = number(4);
         if (const double vd = has_number(5) ? number(5) : 0; vd != 0) medium.vd = vd;
     }
+    // OBDC x y, and SCBD with an index before its numbers, shift or tilt a surface.
     void read_shift() {
         for (std::size_t i = words[0] == "OBDC" ? 1 : 2; i < words.size(); ++i)
             if (number(i) != 0)
@@ -236,6 +239,7 @@ class ZmxReader {
         {"PWAV", &ZmxReader::read_primary}, {"NAME", &ZmxReader::read_title},
     };
 
+    // Checks what can be checked only when all lines are read, and makes the lens.
     void finish() {
         if (surfaces.empty()) {
             refuse(1, "is not a lens in Zemax's format: no line begins with SURF");
@@ -251,6 +255,7 @@ class ZmxReader {
         else if (surfaces.size() < 3)
             refuse(last.line, "has {}; a lens needs an object, an image and surfaces between them",
                    counted(surfaces.size(), "surface"));
+        // Notes on what was assumed or not read.
         if (unit_mm == 0) lens.notes.push_back("The file names no unit of length; taken as mm.");
         if (cut_line && !text.starts_with("VERS"))
             lens.notes.push_back("The file's last line has no end; if it was cut there, something may be missing.");
@@ -259,6 +264,7 @@ class ZmxReader {
                 fmt::format("The coatings of surfaces {} are not read: all glass is bare.", fmt::join(coated, ", ")));
         if (!unread.empty())
             lens.notes.push_back(fmt::format("Words that are unknown and were not read: {}.", fmt::join(unread, ", ")));
+        // The beam, and the surfaces in mm.
         if (field_is_angle) lens.beam.field_deg = field;
         if (wavelengths_um[primary] > 0) lens.beam.wavelength_nm = wavelengths_um[primary] * 1000;
         for (ZmxSurface& s : surfaces) lens.surfaces.push_back(std::move(s.drawn));
@@ -284,21 +290,21 @@ class ZmxReader {
     std::string_view text;
     std::string name;
     std::size_t line = 1;
-    bool in_surface = false;              // the line belongs to one
+    bool in_surface = false;              // the line belongs to a surface: it is SURF or indented after one
     std::vector<std::string_view> words;  // of the line
     std::vector<ZmxSurface> surfaces;
     double unit_mm = 0;  // 0: not given
     std::array<double, 24> wavelengths_um{};
     std::size_t primary = 0;
     bool field_is_angle = false;
-    double field = 0;  // the largest, in degrees if it is an angle
-    std::vector<std::size_t> coated;
-    std::vector<std::string> unread;
+    double field = 0;                 // the largest, in degrees if it is an angle
+    std::vector<std::size_t> coated;  // numbers of surfaces with coatings
+    std::vector<std::string> unread;  // unknown keywords, with their lines
     DrawnLens lens;
     std::vector<Problem> problems;
 };
 
-// UTF-16 without its mark, told by the zero byte of its first letter, gets one.
+// Returns the bytes with a byte order mark before UTF-16 that has none: it is recognised by the zero byte of its first letter.
 std::string marked(std::string_view bytes) {
     const bool little = bytes.size() > 1 && bytes[0] != 0 && bytes[1] == 0,
                big = bytes.size() > 1 && bytes[0] == 0 && bytes[1] != 0;
