@@ -1,4 +1,5 @@
-// Grids of views as two archives keep them: the 4D Light Field Benchmark of HCI and Konstanz, and the Stanford Light Field Archive.
+// Grids of views in folders: of the 4D Light Field Benchmark of HCI and Konstanz, of the Stanford Light Field Archive, and with
+// rows and columns in names.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_files = 1 << 20;  // of a folder that is looked through
+constexpr std::size_t most_files = 1 << 20;  // in a folder that is searched
 
 /// Calls each(name) for the files of a folder. Throws InputError.
 template <class Each>
@@ -30,13 +31,14 @@ void each_file(const fs::path& folder, const Each& each) {
     if (error) throw InputError(folder.string(), fmt::format("cannot be read: {}", error.message()));
 }
 
+/// Returns the number that the whole text is; NaN if it is none.
 double number_of(const std::string& text) {
     double value = nan;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc{} && end == text.data() + text.size() ? value : nan;
 }
 
-/// The values of an INI file by their keys, whatever section they are in.
+/// The values of an INI file by their keys, whatever section they are in. What it returns is checked, or InputError is thrown.
 class Parameters {
   public:
     explicit Parameters(const fs::path& path) : name_(path.string()) {
@@ -116,8 +118,9 @@ namespace {
 /// Pictures by the two numbers in their names.
 using ByNumbers = std::map<std::pair<int, int>, fs::path>;
 
+/// A grid of pictures by the two numbers in their names.
 struct GridOfNames {
-    int first[2], count[2];
+    int first[2], count[2];  // of the first number (0) and the second (1)
 };
 /// Returns the grid from the least to the greatest of both numbers, with none missing. Throws InputError.
 GridOfNames whole_grid(const fs::path& folder, const ByNumbers& files, std::array<const char*, 2> words) {
@@ -158,6 +161,7 @@ void add(ByNumbers& files, int a, int b, fs::path path) {
 
 std::vector<fs::path> numbered_grid(const fs::path& folder, const std::string& pattern, int outer, int inner,
                                     std::array<const char*, 2> words, const std::string& counted_in) {
+    // The files whose names match the pattern.
     const std::size_t star = pattern.find('*'), other = pattern.find('*', star + 1);
     const std::string before = pattern.substr(0, star), between = pattern.substr(star + 1, other - star - 1),
                       after = pattern.substr(other + 1);
@@ -184,14 +188,15 @@ std::vector<fs::path> numbered_grid(const fs::path& folder, const std::string& p
 }
 
 std::optional<ViewsSource> row_column_views(const fs::path& folder) {
+    // Pictures are grouped by the rest of their names, since a folder may also have other numbered files.
     static const std::regex form(R"((|.*[^0-9])(\d{1,6})_(\d{1,6})(\.(?:png|jpg|jpeg|exr|npy)))");
-    std::map<std::pair<std::string, std::string>, ByNumbers> groups;  // by what stands before and after the numbers
+    std::map<std::pair<std::string, std::string>, ByNumbers> groups;  // by the text before and after the numbers
     each_file(folder, [&](const std::string& name) {
         std::smatch part;
         if (name.size() <= 200 && std::regex_match(name, part, form))
             add(groups[{part[1], part[4]}], std::stoi(part[2]), std::stoi(part[3]), folder / name);
     });
-    std::erase_if(groups, [](const auto& group) { return group.second.size() < 2; });  // no grid
+    std::erase_if(groups, [](const auto& group) { return group.second.size() < 2; });  // one picture is no grid
     if (groups.empty()) return {};
     if (groups.size() > 1)
         throw InputError(folder.string(), fmt::format("has pictures of more than one name: {} and {}; state in a views.toml which "
@@ -221,7 +226,7 @@ ViewsSource hci_views(const fs::path& folder) {
     source.rows = parameters.count("num_cams_y");
     const double baseline_mm = parameters.positive("baseline_mm");
     source.distance_mm = 1000 * parameters.positive("focus_distance_m");
-    // The sensor's size is that of its longer side; what a camera sees at the focus's distance is the focus.
+    // The sensor's size is that of its longer side. The focus is what a camera sees at its distance B: width = sensor/f B.
     const double columns = parameters.positive("image_resolution_x_px"), rows = parameters.positive("image_resolution_y_px");
     source.width_mm = parameters.positive("sensor_size_mm") / parameters.positive("focal_length_mm") * *source.distance_mm *
                       columns / std::max(columns, rows);
@@ -229,6 +234,7 @@ ViewsSource hci_views(const fs::path& folder) {
     source.cameras = camera_places(even_places(source.columns, baseline_mm), even_places(source.rows, -baseline_mm));
     source.pictures = numbered_row(folder, "input_Cam*.png", source.views(), file.string());
 
+    // Depth maps: of all views, or of the middle one alone, which has no number in its name. Distances are in metres.
     const auto exists = [&](const std::string& name) {
         std::error_code none;
         return fs::exists(folder / name, none);
@@ -255,6 +261,7 @@ ViewsSource hci_views(const fs::path& folder) {
 }
 
 std::optional<ViewsSource> stanford_views(const fs::path& folder) {
+    // Names end in _ROW_COLUMN_V_U, v and u being the camera's position in an unknown unit.
     static const std::regex form(
         R"(.*_(\d{1,4})_(\d{1,4})_(-?\d{1,9}(?:\.\d{1,12})?)_(-?\d{1,9}(?:\.\d{1,12})?)_?\.(?:png|jpg|jpeg))");
     struct NamedView {
@@ -283,6 +290,7 @@ std::optional<ViewsSource> stanford_views(const fs::path& folder) {
     if (source.rows > most_views_a_side || source.columns > most_views_a_side)
         throw InputError(folder.string(), fmt::format("has a grid of {} x {} views by its names; allowed are {} along each side",
                                                       source.columns, source.rows, most_views_a_side));
+    // The pictures row by row, and the sum of their cameras' positions.
     double u = 0, v = 0;
     for (int row = 0; row < source.rows; ++row)
         for (int column = 0; column < source.columns; ++column) {
@@ -298,7 +306,8 @@ std::optional<ViewsSource> stanford_views(const fs::path& folder) {
             u += found->second.u;
             v += found->second.v;
         }
-    // The sign of u and v differs from scene to scene; rows and columns are counted from the upper left.
+    // The sign of u and v differs from scene to scene; rows and columns are counted from the upper left, which decides it.
+    // Positions are then from the mean of all.
     const double sign_u = source.cameras.front()[0] <= source.cameras.back()[0] ? 1 : -1,
                  sign_v = source.cameras.front()[1] >= source.cameras.back()[1] ? 1 : -1, n = double(views.size());
     for (auto& at : source.cameras) at = {sign_u * (at[0] - u / n), sign_v * (at[1] - v / n)};

@@ -18,6 +18,7 @@ constexpr const char* forms =
     "give a folder with views.toml, with parameters.cfg (HCI 4D) or with names such as out_00_00_-1.5_2.5_.png (Stanford archive) "
     "or 000_000.png (ROW_COLUMN), or a quilt such as name_qs8x6a0.75.png";
 
+// Returns a quilt as one row of views, in the order of its tiles.
 ViewsSource find_quilt(const fs::path& file) {
     const std::optional<QuiltName> name = quilt_name(file);
     if (!name) throw InputError(file.string(), fmt::format("has no _qsCOLUMNSxROWSaASPECT in its name; {}", forms));
@@ -96,6 +97,7 @@ std::optional<QuiltName> quilt_name(const fs::path& path) {
 
 ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPlace& place, double focus_aspect,
                 std::vector<std::string>& notes) {
+    // The focus: its depth, width and height. Lengths of the source are scaled as its width is.
     ViewGrid grid;
     grid.columns = source.columns;
     grid.rows = source.rows;
@@ -110,10 +112,12 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
                          wish.baseline_mm
                              ? "places the cameras in a view cone, --baseline-mm at equal distances; give one of them"
                              : "places the cameras in a view cone, but their positions are given; give --view-cone-deg, too");
-    // As the display shows quilts: the k-th of n parts of each elemental image has view k, wherever its camera stood.
+    // Views of which nothing is known are placed as the display shows quilts: the k-th of n parts of each elemental image has view
+    // k, whatever its camera's position was.
     const bool unsaid = source.cameras.empty() && !source.cone_deg && !source.cone && !source.distance_mm && !wish.baseline_mm &&
                         !wish.cone_deg && !wish.cone && !wish.distance_mm;
     const bool as_shown = unsaid && place.view_cone_deg && place.zone_width_mm > 0 && grid.rows == 1;
+    // The distance B from the cameras to the focus: as wished, as the files say, or the viewing distance.
     if (wish.distance_mm)
         grid.distance_mm = *wish.distance_mm;
     else if (source.distance_mm)
@@ -128,12 +132,12 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
     }
     const ConeCameras cone =
         wish.cone.value_or(source.cone.value_or(source.form == ViewsForm::quilt ? ConeCameras::ends : ConeCameras::bins));
-    // Neither absurd lengths nor their quotients reach the places of cameras.
+    // The cameras: by a baseline that is wished, by a cone that is wished, by the files, or by the display.
     const auto in_cone = [&](double cone_deg) { return cone_cameras(grid.columns, grid.rows, cone_deg, grid.distance_mm, cone); };
     if (wish.baseline_mm && source.cameras.empty())
         grid.camera_mm =
             camera_places(even_places(grid.columns, (*wish.baseline_mm)[0]), even_places(grid.rows, -(*wish.baseline_mm)[1]));
-    else if (wish.baseline_mm) {  // what is uneven in their places stays
+    else if (wish.baseline_mm) {  // the wish is the mean step: uneven positions remain uneven
         grid.camera_mm = source.cameras;
         double low[2] = {infinity, infinity}, high[2] = {-infinity, -infinity};
         for (const auto& at : source.cameras)
@@ -160,7 +164,7 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
             for (double& value : at) value *= scale;
     } else if (as_shown) {
         grid.camera_mm = camera_places(even_places(grid.columns, place.zone_width_mm / grid.columns), {0});
-        grid.border_mm = place.lens_mm;  // lenses stand beside the panel's outermost pixels
+        grid.border_mm = place.lens_mm;  // there are lenses beside the panel's outermost pixels, too
     } else {
         const double of_display = place.view_cone_deg.value_or(usual_cone_deg);
         grid.camera_mm = in_cone(source.cone_deg.value_or(of_display));

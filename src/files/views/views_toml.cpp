@@ -1,4 +1,4 @@
-// views.toml, in and out: docs/views.md.
+// views.toml, read and written: docs/views.md.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,7 +27,7 @@ constexpr std::string_view picture_keys[] = {"columns", "rows", "pictures", "fir
 constexpr std::string_view corners[] = {"top_left", "top_right", "bottom_left", "bottom_right"};
 constexpr std::string_view ways[] = {"rows", "columns"};
 
-/// The values of a views file, with all that is wrong with them.
+/// The values of a views file and their faults. Functions that read a key return false, 0 or nothing where it is absent or refused.
 class ViewsReader {
   public:
     explicit ViewsReader(const fs::path& path)
@@ -78,7 +78,7 @@ class ViewsReader {
         if (!range.contains(value)) refuse(key, "is {}, allowed is {}", value, range.text());
         return value;
     }
-    /// 0 where it is refused.
+    /// Returns a number of columns or rows; refuses it where it is absent or out of range, and returns 0.
     int count(std::string_view key) {
         std::int64_t value = 0;
         if (!has(key)) refuse(key, "is missing; give the number of views");
@@ -87,7 +87,7 @@ class ViewsReader {
         refuse(key, "is {}, allowed is 1 to {}", value, most_views_a_side);
         return 0;
     }
-    /// The name of numbered files, with one or two "*" and without a folder.
+    /// Returns the name of numbered files, with one or two "*" and without a folder; `otherwise` where the key is absent.
     std::string pattern(std::string_view key, const std::string& otherwise) {
         std::string name = otherwise;
         read(key, name);
@@ -113,7 +113,8 @@ class ViewsReader {
     std::vector<Problem> problems_;
 };
 
-/// Where the number-th picture belongs, counted row by row from the upper left.
+/// Returns the position, row by row from the upper left, of a picture by its number in an order that begins at a corner (an index
+/// of `corners`) and goes along rows (0) or columns (1).
 std::size_t place_of(std::size_t number, int columns, int rows, std::size_t first, std::size_t along) {
     const auto wide = std::size_t(columns), high = std::size_t(rows);
     std::size_t column = along == 0 ? number % wide : number / high, row = along == 0 ? number / wide : number % high;
@@ -122,8 +123,8 @@ std::size_t place_of(std::size_t number, int columns, int rows, std::size_t firs
     return row * wide + column;
 }
 
-/// The files of a pattern, placed. With two numbers in their names the first one counts what the order goes on by: rows, or
-/// columns.
+/// Returns the files of a pattern, row by row from the upper left. Of two numbers in their names the first one counts rows where
+/// the order goes along rows, else columns.
 std::vector<fs::path> in_place(const fs::path& folder, const std::string& pattern, const fs::path& toml, const ViewsSource& source,
                                std::size_t first, std::size_t along) {
     std::vector<fs::path> files =
@@ -137,6 +138,7 @@ std::vector<fs::path> in_place(const fs::path& folder, const std::string& patter
     return placed;
 }
 
+/// Reads the cameras' positions, in one of three ways: a step, the x and y of all, or a view cone.
 void read_cameras(ViewsReader& reader, ViewsSource& source) {
     const bool places = reader.has("camera_x_mm") || reader.has("camera_y_mm");
     if (int(reader.has("baseline_mm")) + int(places) + int(reader.has("view_cone_deg")) > 1)
@@ -168,6 +170,7 @@ void read_cameras(ViewsReader& reader, ViewsSource& source) {
     }
 }
 
+/// Reads cameras and focus. A cone and a distance together give the cameras' positions.
 void read_geometry(ViewsReader& reader, ViewsSource& source) {
     read_cameras(reader, source);
     source.distance_mm = reader.number("distance_mm", positive_length);
