@@ -9,21 +9,22 @@
 #include "files/description/nearest.h"
 #include "files/lenses/lens_json.h"
 
-// visual.json of Looking Glass displays: numbers by name, plain or as {"value": x}; newer ones with subpixelCells. The first letter
-// of a key may be small or capital.
+// Reads visual.json of Looking Glass displays: numbers by name, plain or as {"value": x}; newer files also have subpixelCells. The
+// first letter of a key may be small or capital.
 namespace lfdsim {
 namespace {
 
 constexpr std::string_view own_keys[] = {"pitch", "slope", "DPI", "screenW", "screenH", "viewCone"};
 constexpr Range pitch_range{1, 1e4}, center_range{-1e6, 1e6}, dpi_range{1, 1e5}, screen_range{1, 1e5}, cone_range{1, 170},
     place_range{-1, 1};
-constexpr double flattest = 0.1, steepest = 1e6;  // slopes: lenses are turned by 84 degrees at most
+constexpr double flattest = 0.1, steepest = 1e6;  // slopes: lenses are rotated by 84 degrees at most, atan(1/0.1)
 constexpr std::size_t most_cells = 16;
-constexpr std::size_t enough_keys = 3;  // of its own ones, to tell a calibration among other things
-constexpr int deepest_nesting = 8;      // of things inside of others
-constexpr std::size_t most_found = 10;
+constexpr std::size_t enough_keys = 3;  // of own_keys, by which a calibration is recognised within other data
+constexpr int deepest_nesting = 8;      // levels of objects, lists and texts that are searched
+constexpr std::size_t most_found = 10;  // calibrations; further ones are not searched
 
-/// A member by its key, or else by one with another first letter: "cellPatternMode" for "CellPatternMode". `found_as`: its own key.
+/// Returns a member by its key, or else by the key whose first letter is in the other case: "cellPatternMode" for
+/// "CellPatternMode". `found_as` becomes the key that the file has.
 const LensJson& named(const LensJson& json, const std::string& key, std::string& found_as) {
     found_as = key;
     if (const LensJson& exact = member(json, key); !exact.is_null()) return exact;
@@ -41,12 +42,13 @@ const LensJson& named(const LensJson& json, const std::string& key) {
     return named(json, key, found_as);
 }
 
+/// Returns how many of own_keys a value has.
 std::size_t own_keys_of(const LensJson& json) {
     return std::size_t(std::count_if(std::begin(own_keys), std::end(own_keys),
                                      [&](std::string_view key) { return !named(json, std::string(key)).is_null(); }));
 }
 
-/// Number, word or flag under a key; null where something larger stands.
+/// Returns the number, word or flag under a key; null where there is a list or an object without "value".
 const LensJson& plain(const LensJson& json, const std::string& key) {
     static const LensJson nothing;
     const LensJson& found = named(json, key);
@@ -54,12 +56,13 @@ const LensJson& plain(const LensJson& json, const std::string& key) {
     return value.is_structured() ? nothing : value;
 }
 
-/// The text may nest deeply: nothing of it is copied or compared as a whole.
+/// A calibration within a text. The text may nest deeply, so no value is copied or compared as a whole.
 struct CalibrationValues {
-    std::string place;
-    std::shared_ptr<const LensJson> text;  // in which it stands
-    const LensJson* json;
+    std::string place;                     // "devices[0].calibration"; empty: the whole text
+    std::shared_ptr<const LensJson> text;  // that contains it
+    const LensJson* json;                  // the calibration, in `text`
 
+    /// Whether another calibration has the same numbers: that of the same device.
     bool same_unit(const LensJson& other) const {
         constexpr const char* keys[] = {"serial", "pitch", "slope", "center", "DPI", "screenW", "screenH", "viewCone"};
         return std::all_of(std::begin(keys), std::end(keys),
@@ -90,7 +93,8 @@ void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& js
         for (std::size_t i = 0; i < json.size(); ++i) find_within(text, json[i], fmt::format("{}[{}]", place, i), depth + 1, found);
 }
 
-/// The calibrations that a file means: itself where it has but one key of them, so that those that are missing are named.
+/// Returns the different calibrations in a text. A text whose top level has at least one of own_keys counts as one, so that the
+/// keys that are missing are named.
 std::vector<CalibrationValues> calibrations_in(std::string_view text, std::string_view name) {
     const auto json = std::make_shared<const LensJson>(parse_lens_json(text, name));
     std::vector<CalibrationValues> found;
@@ -123,7 +127,7 @@ class CalibrationReader : JsonReader {
     }
 
   private:
-    /// What stands under a key, without the object around it. Null: nothing does.
+    /// Returns the value of a key, without the object {"value": x} around it; null if there is none. The key then counts as read.
     const LensJson& value(const std::string& key) {
         std::string found_as;
         const LensJson& found = named(*all, key, found_as);
@@ -143,6 +147,7 @@ class CalibrationReader : JsonReader {
         return x;
     }
 
+    /// Returns a whole number in a range; refuses others, and returns the least or the integral part.
     std::int64_t whole(const std::string& key, const Range& range) {
         const double x = required(key, range);
         if (!range.contains(x)) return std::int64_t(range.low);
@@ -157,6 +162,7 @@ class CalibrationReader : JsonReader {
         return in_range(json, key, {0, 1}) >= 0.5;
     }
 
+    /// Reads the cells that the pattern needs; without cells the panel has stripes.
     void read_cells() {
         const LensJson& cells = value("subpixelCells");
         const LensJson& mode = value("CellPatternMode");
@@ -197,7 +203,7 @@ class CalibrationReader : JsonReader {
         return places;
     }
 
-    // What is said and what is not read.
+    // Reads the serial, and notes what has no effect here or is not read.
     void read_names() {
         const LensJson& serial = value("serial");
         if (serial.is_string()) c.serial = shortened(serial.get<std::string>());
@@ -220,7 +226,7 @@ class CalibrationReader : JsonReader {
 
     const LensJson* all = nullptr;
     Calibration c;
-    std::set<std::string, std::less<>> known;  // keys
+    std::set<std::string, std::less<>> known;  // keys that have been read
 };
 
 }  // namespace

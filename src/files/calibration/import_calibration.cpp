@@ -17,14 +17,16 @@ namespace {
 
 constexpr double inch_mm = 25.4, panel_height_deg = 14;
 constexpr double least_share = 0.01;        // of a pixel's width or height that a subpixel can be
-constexpr double fewest_pixels_behind = 1;  // a lens; less can show no views
+constexpr double fewest_pixels_behind = 1;  // panel pixels per lens; with fewer there are no views
 
-/// Returns the width and height, in pixels, of the largest rectangle that all subpixels can have without two of them overlapping.
+/// Returns the width and height, in pixels, of the largest rectangle that all subpixels can have without two of them overlapping,
+/// at most a pixel each.
 std::array<double, 2> largest_rect(const Calibration& c) {
+    // The distances of all pairs of subpixels that are nearer than a pixel along both axes: others cannot overlap.
     const CellPattern& pattern = cell_patterns[c.cell_pattern];
     std::vector<std::array<double, 2>> apart;  // neighbours, by their distance along x and y
     constexpr std::int64_t reach = 3;          // pixels: places differ by two at most, and a rectangle is one wide
-    const std::int64_t far = 4 * reach;        // a whole number of cells, so that no row or column is negative
+    const std::int64_t far = 4 * reach;        // a whole number of cells, added so that no row or column is negative
     const auto place = [&](std::int64_t column, std::int64_t row, std::size_t channel) {
         const auto& [x, y] = c.cells[std::size_t(cell_of(c.cell_pattern, column + far, row + far))][channel];
         return std::array{double(column) + x, double(row) + y};
@@ -40,7 +42,8 @@ std::array<double, 2> largest_rect(const Calibration& c) {
                             const double x = std::abs(a[0] - b[0]), y = std::abs(a[1] - b[1]);
                             if (x < 1 && y < 1) apart.push_back({x, y});
                         }
-    // Rectangles of a height touch only those that are no further up or down; the best height is one of these distances, or 1.
+    // Rectangles of some height overlap only with neighbours whose distance along y is less: these limit the width. The best height
+    // is one of the distances, or 1.
     std::vector<double> heights{1};
     for (const auto& [x, y] : apart) heights.push_back(y);
     std::array<double, 2> best{};
@@ -53,6 +56,8 @@ std::array<double, 2> largest_rect(const Calibration& c) {
     return best;
 }
 
+// Makes the display step by step, by the equations of docs/model.md, "Calibrations", in its symbols: turn() is alpha, sign() sigma,
+// elemental_pitch_mm() p'.
 class CalibrationImport {
   public:
     CalibrationImport(const Calibration& calibration, const CalibrationRequest& r, const std::string& file)
@@ -86,6 +91,7 @@ class CalibrationImport {
     double turn() const { return std::atan(sign() / c.slope); }  // of the array, counter-clockwise
     double elemental_pitch_mm() const { return inch_mm / c.pitch_per_inch; }
 
+    // Panel and subpixels: stripes, or rectangles about the centres that the cells state.
     void make_panel() {
         d.panel.pixels = c.pixels;
         d.panel.pixel_pitch_mm = inch_mm / c.dpi;
@@ -119,11 +125,12 @@ class CalibrationImport {
             c.cell_pattern, width, height);
         if (c.flip_subpixels) note("flipSubp is not read: subpixelCells give the position of each colour.");
     }
-    /// Returns the number, from the bottom, of a row of the cell that is at the panel's top.
+    /// Returns the number, from the bottom of the panel, of a row of the cell at the panel's top left corner.
     std::int64_t row_from_bottom(int row, const CellPattern& pattern) const {
         return c.pixels[1] - 1 - row + pattern.rows;  // one cell further up: not negative, on a panel of fewer rows than the cell
     }
 
+    // The gap: as requested, or g = p' / (2 tan(cone/2) cos(alpha)).
     void find_gap() {
         const double across = elemental_pitch_mm() / std::cos(turn());
         if (request.gap_mm) {
@@ -140,12 +147,13 @@ class CalibrationImport {
             gap_mm, *c.view_cone_deg);
     }
 
+    // Strips of the pitch p = p' / (1 + g/(D' - z_H')), ideal lenses in air or cylinders of glass.
     void make_lenses() {
         d.array.lattice = LatticeKind::strips;
         d.array.aperture = Aperture::cell;
         const double height_mm = double(c.pixels[1]) * d.panel.pixel_pitch_mm;
         distance_mm = request.distance_mm.value_or(rounded(height_mm / (2 * std::tan(panel_height_deg * degree / 2))));
-        // In glass of index n the lens's vertex stands at n g, and light bends nowhere else.
+        // In glass of index n the lens's vertex, the only place where light is refracted, is at n g above the panel.
         const double vertex_mm = gap_mm * request.index.value_or(1), to_eye_mm = distance_mm - vertex_mm;
         if (!(to_eye_mm > 0))
             refuse("--distance-mm",
@@ -174,6 +182,7 @@ class CalibrationImport {
         make_sheet(pitch_mm);
     }
 
+    // Cylinders R = (n - 1) g in one sheet with the layer on the panel, focused on the panel.
     void make_sheet(double pitch_mm) {
         const double n = *request.index, half = pitch_mm / 2;
         const std::optional<CylinderSheet> sheet = cylinder_sheet(pitch_mm, gap_mm, n);
@@ -190,16 +199,17 @@ class CalibrationImport {
              n * gap_mm);
     }
 
-    // The phase of the panel's middle and where a lens's axis is seen from the eye: whole phases are borders of elemental images.
+    // Slant, count and offset of the strips. The panel's middle has the phase P (1 + tilt)/2 - center; whole phases are borders of
+    // elemental images, so with n strips the offset across them is o/p = n/2 - P (1 + tilt)/2 + center, less whole numbers.
     void place_array() {
         const double W = double(c.pixels[0]), H = double(c.pixels[1]), slope = sign() * c.slope;
-        const double per_width = c.pitch_per_inch * W / c.dpi * std::cos(turn());  // lenses across the panel
-        // Without cells the formula takes the first subpixel to be at its pixel's middle; it is a third of a pixel beside it.
+        const double per_width = c.pitch_per_inch * W / c.dpi * std::cos(turn());  // P, lenses across the panel's width
+        // Without cells the formula takes the first subpixel to be at its pixel's centre; it is a third of a pixel beside it.
         const double moved = c.cells.empty() ? sign() * per_width / (3 * W) : 0;
         const double middle = per_width * (1 + H / (W * slope)) / 2 - (c.center - moved);
         d.array.slant_deg = -turn() / degree;
-        // One more than covers the panel, so that the array may be half a lens aside. A fixed number, since an even one has a
-        // border in its middle.
+        // One strip more than covers the panel, so that the array may be half a lens aside. The number is written, since the offset
+        // depends on it: an even one has a border of lenses in its middle.
         d.array.count = lens_count(d.panel, d.array);
         const double count = double(++d.array.count->at(0));
         double aside = count / 2 - middle;
@@ -212,6 +222,7 @@ class CalibrationImport {
         if (count < 1 + fewest_lenses) note("Only {:.0f} lenses cover the panel.", count - 1);
     }
 
+    // Camera and content: an eye at the distance D' that sees the whole panel, and spheres in the plane of the vertices.
     void make_ray_origin() {
         const double W = double(c.pixels[0]), H = double(c.pixels[1]), longest = std::max(W, H);
         d.camera.position_mm = {0, 0, distance_mm};
@@ -226,7 +237,7 @@ class CalibrationImport {
         d.content.view_cone_deg = c.view_cone_deg;
     }
 
-    // What the description's checks find, at the file's key or the option that set it.
+    // Throws what the checks of a description find, with the keys or options that it comes from.
     void judge() const {
         std::vector<Problem> problems = validate(d);
         for (Problem& p : problems) {
