@@ -6,8 +6,8 @@
 namespace lfdsim {
 namespace {
 
-// ' ' to '~', then the degree sign. Each character of a glyph is a row of five dots, top first, as a digit in base 32 (0-9, A-V; 16
-// is the left dot); rows eight and nine hang below the line.
+// The glyphs of ' ' to '~', then of the degree sign. Each character of a glyph is a row of five dots, top first, as a digit in base
+// 32 (0-9, A-V; 16 is the left dot); rows eight and nine are below the base line.
 constexpr std::string_view glyphs[] = {
     "",          "4444404",   "AAA",      "AAVAVAA",  "4FKE5U4",   "OP248J3", "CIK8LID", "44",      "2488842", "8422248",
     "04LEL4",    "044V44",    "00000C48", "000V",     "00000CC",   "11248GG", "EHJLPHE", "4C4444E", "EH1248V", "V2421HE",
@@ -35,7 +35,8 @@ std::string_view glyph(char32_t c) {
     return c >= 0x20 && c < 0x7f ? glyphs[c - 0x20] : box;
 }
 
-// The first character of a text that is not empty, taken off it; bytes that are not UTF-8 come one by one, as what has no glyph.
+// Removes the first character of a text that is not empty and returns its code. Bytes that are not UTF-8 are returned one by one,
+// as U+FFFD, which has no glyph.
 char32_t take_character(std::string_view& text) {
     const auto lead = static_cast<unsigned char>(text[0]);
     const std::size_t bytes = lead < 0xc0 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
@@ -46,6 +47,7 @@ char32_t take_character(std::string_view& text) {
     return n < bytes || (bytes == 1 && lead >= 0x80) ? 0xfffd : code;
 }
 
+// Returns the five bits of a digit in base 32.
 int dots(char digit) { return digit <= '9' ? digit - '0' : digit - 'A' + 10; }
 
 /// A glyph as pens draw it: lines of a dot's width, with round ends, from each dot to its neighbours.
@@ -53,7 +55,7 @@ class Strokes {
   public:
     explicit Strokes(std::string_view rows) : rows_(rows) {}
     int height() const { return int(rows_.size()); }
-    /// The distance of a place, in dots from the upper left corner, to the nearest line.
+    /// Returns the distance in dots from a point, in dots from the upper left corner, to the nearest line; 10 if there is none.
     double distance(double x, double y) const {
         double least = 10;
         for (int j = 0; j < height(); ++j)
@@ -62,7 +64,7 @@ class Strokes {
                 least = std::min(least, to_line(x, y, i, j, i, j));
                 if (dot(i + 1, j)) least = std::min(least, to_line(x, y, i, j, i + 1, j));
                 if (dot(i, j + 1)) least = std::min(least, to_line(x, y, i, j, i, j + 1));
-                for (const int side : {-1, 1})  // a diagonal that no corner goes around
+                for (const int side : {-1, 1})  // a diagonal, unless a third dot makes it a corner
                     if (dot(i + side, j + 1) && !dot(i + side, j) && !dot(i, j + 1))
                         least = std::min(least, to_line(x, y, i, j, i + side, j + 1));
             }
@@ -71,6 +73,7 @@ class Strokes {
 
   private:
     bool dot(int i, int j) const { return i >= 0 && i < 5 && j < height() && (dots(rows_[std::size_t(j)]) >> (4 - i) & 1); }
+    /// Returns the distance from a point to the line between the centres of two dots, which may be the same.
     static double to_line(double x, double y, int i, int j, int to_i, int to_j) {
         const double u = to_i - i, v = to_j - j, dx = x - i - 0.5, dy = y - j - 0.5, square = u * u + v * v;
         const double along = square > 0 ? std::clamp((dx * u + dy * v) / square, 0., 1.) : 0;
@@ -91,7 +94,7 @@ void draw_text(Image& image, int x, int y, int scale, std::string_view text, flo
                 const int column = x + dot_x, row = y + dot_y;
                 if (column < 0 || row < 0 || column >= image.width || row >= image.height) continue;
                 const double away = scale * strokes.distance((dot_x + 0.5) / scale, (dot_y + 0.5) / scale);
-                // Of this pixel; dots of one pixel are sharp.
+                // Share of this pixel that the line covers, as if its edge were straight there; dots of one pixel are sharp.
                 const auto covered = float(scale == 1 ? away == 0 : std::clamp(0.5 * scale - away + 0.5, 0., 1.));
                 for (int channel = 0; channel < 3; ++channel) {
                     float& value = image.at(column, row)[channel];

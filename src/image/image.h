@@ -11,7 +11,7 @@ struct Image {
     std::vector<float> rgb;  // height x width x 3
 
     Image() = default;
-    Image(int w, int h);  // black
+    Image(int w, int h);  // black; throws std::bad_alloc
     float* at(int column, int row) { return &rgb[(std::size_t(row) * width + column) * 3]; }
     const float* at(int column, int row) const { return &rgb[(std::size_t(row) * width + column) * 3]; }
 };

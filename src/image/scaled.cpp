@@ -8,7 +8,8 @@
 namespace lfdsim {
 namespace {
 
-/// Divides 0 .. from into `to` equal parts and calls add(number, its share of the part) for the numbers that part k covers.
+/// Divides [0, from] into `to` equal parts and calls add(i, share) for each unit interval [i, i + 1] that part k covers, with the
+/// share of the part that lies in it.
 template <class Add>
 void each_covered(int k, int from, int to, Add add) {
     const double scale = double(from) / to, begin = k * scale, end = std::min((k + 1) * scale, double(from));
@@ -18,6 +19,7 @@ void each_covered(int k, int from, int to, Add add) {
 }  // namespace
 
 Image scaled(const Image& image, int width, int height) {
+    // The mean over an area is one over columns of means over rows: first `even`, scaled across, then down.
     Image even(width, image.height), result(width, height);
     tbb::parallel_for(0, image.height, [&](int y) {
         for (int x = 0; x < width; ++x) {

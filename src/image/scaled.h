@@ -4,10 +4,12 @@
 
 namespace lfdsim {
 
-/// The mean light over each new pixel's area, so that fine lens dots keep their brightness. Sizes 1 or more.
+/// Returns the picture in another size, 1 or more, larger or smaller: each new pixel is the mean light over its area, so that fine
+/// lens dots keep their brightness.
 Image scaled(const Image&, int width, int height);
 
-/// The picture made smaller to `columns`, its height in proportion. As it is if it has no more columns.
+/// Returns the picture reduced to `columns`, its height in proportion; unchanged if it has no more columns, or `columns` is
+/// below 1.
 Image reduced(const Image&, int columns);
 
 }  // namespace lfdsim

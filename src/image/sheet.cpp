@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_lines = 4;  // of a label
 
-// A degree sign has two bytes.
+// Whether a byte of UTF-8 begins a character; a degree sign, for example, has two bytes.
 bool begins_letter(char c) { return (c & 0xc0) != 0x80; }
 std::size_t letters_of(const std::string& text) { return std::size_t(std::count_if(text.begin(), text.end(), begins_letter)); }
 
@@ -26,7 +26,7 @@ std::string first_letters(const std::string& text, std::size_t letters) {
     return text.substr(0, end);
 }
 
-// The label in lines of so many letters, broken between words; at most most_lines, and words cut to a line's length.
+// Returns the label in lines of at most `letters`, broken between words: at most most_lines, and words cut to a line's length.
 std::vector<std::string> lines_of(const std::string& label, std::size_t letters) {
     std::vector<std::string> lines;
     std::istringstream words(label);
@@ -41,7 +41,8 @@ std::vector<std::string> lines_of(const std::string& label, std::size_t letters)
     return lines;
 }
 
-// As large as needed to read on a sheet of that width, but not so large that a word is wider than a picture.
+// Returns the scale of the labels: as large as needed to read them on a sheet of that width, but not so large that a word is wider
+// than a picture.
 int label_scale(std::span<const std::string> labels, int picture_width, int sheet_width) {
     std::size_t longest = 1;
     for (const std::string& label : labels) {
@@ -54,6 +55,7 @@ int label_scale(std::span<const std::string> labels, int picture_width, int shee
 }  // namespace
 
 Image contact_sheet(std::span<const Image> pictures, std::span<const std::string> labels, int columns) {
+    // The layout: cells as wide as the widest picture, and rows as high as their highest picture and the longest label.
     const int count = int(pictures.size());
     columns = std::clamp(columns, 1, std::max(count, 1));
     int width = 1;
@@ -63,7 +65,7 @@ Image contact_sheet(std::span<const Image> pictures, std::span<const std::string
     std::size_t lines = 0;  // of the longest label
     for (const std::string& each : labels) lines = std::max(lines, lines_of(each, letters).size());
     const int label = labels.empty() ? 0 : int(lines) * glyph_height * scale + sheet_margin / 2;
-    std::vector<int> tops;  // of each row
+    std::vector<int> tops;  // of each row, pixels from the sheet's upper edge
     int bottom = sheet_margin;
     for (int first = 0; first < count; first += columns) {
         int tallest = 0;
@@ -71,6 +73,7 @@ Image contact_sheet(std::span<const Image> pictures, std::span<const std::string
         tops.push_back(bottom);
         bottom += label + tallest + sheet_margin;
     }
+    // The sheet.
     Image sheet(sheet_width, bottom);
     std::fill(sheet.rgb.begin(), sheet.rgb.end(), sheet_background);
     for (int i = 0; i < count; ++i) {

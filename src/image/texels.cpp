@@ -14,7 +14,7 @@ namespace {
 using detail::huge_page;
 constexpr std::size_t texel_bytes = 4 * sizeof(float);
 
-/// Anonymous (zeroed) memory that begins on a huge page: maps one page more than needed and unmaps the ends.
+/// Returns anonymous (zeroed) memory that begins on a huge page: maps one huge page more than needed and unmaps the ends.
 void* map_aligned(std::size_t bytes) {
     void* const whole = mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (whole == MAP_FAILED) throw std::bad_alloc();
@@ -25,7 +25,7 @@ void* map_aligned(std::size_t bytes) {
     return start;
 }
 
-/// Row by row on all threads: most of the time goes into the first touch of the memory.
+/// Copies an image with each value converted, rows on all threads: most of the time goes into the first touch of the memory.
 template <class Convert>
 Texels converted(const Image& image, const Convert& convert) {
     Texels texels(image.width, image.height);

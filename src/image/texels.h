@@ -9,12 +9,13 @@
 
 namespace lfdsim {
 
-/// Linear radiance, 4 x float32 (R, G, B, 0) a pixel: one aligned 16-byte load fetches an exactly decoded panel pixel, whatever
-/// the file's depth. Uses huge pages where the system grants them, since the renderer's access is random.
+/// Linear radiance of a panel, 4 x float32 (R, G, B, 0) a pixel, row 0 at the top: one aligned 16-byte load fetches an exactly
+/// decoded panel pixel, whatever the file's depth. It uses huge pages where the system grants them, since the renderer's access is
+/// random.
 class Texels {
   public:
     Texels() = default;
-    /// Zeroed. Throws std::bad_alloc. columns x rows < 2^31.
+    /// Makes a black panel. Throws std::bad_alloc where memory does not suffice, or for sizes below 1 or columns x rows >= 2^31.
     Texels(std::int64_t columns, std::int64_t rows);
 
     std::int64_t columns() const { return columns_; }
@@ -35,8 +36,8 @@ class Texels {
 /// Copies an image.
 Texels make_texels(const Image&);
 
-/// Copies an image as it is shown by a panel, which is driven by 8-bit codes: light rounded to them in the panel's encoding.
-/// Bit for bit the result of writing the image to a PNG and reading that as a panel image.
+/// Copies an image as a panel shows it, which is driven by 8-bit codes: light is clipped to [0, 1] and rounded to codes in the
+/// panel's encoding. The result has the same bits as the image written to a PNG and read as a panel image.
 Texels shown_texels(const Image&, Encoding);
 
 }  // namespace lfdsim

@@ -8,8 +8,8 @@
 namespace lfdsim {
 namespace {
 
-constexpr float rounding = 1e-3f;      // above 1 that light may be by the arithmetic that made it
-constexpr float most_of_picture = 16;  // four stripes' worth of a quarter's aperture
+constexpr float rounding = 1e-3f;      // by which light may exceed 1 because of the arithmetic that made it
+constexpr float most_of_picture = 16;  // brighter light is doubted
 
 }  // namespace
 

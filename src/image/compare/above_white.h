@@ -1,17 +1,17 @@
-// Light that is more than white can be: most often codes that were taken for light. Floor 0.
+// A warning of light above white: most often codes that were saved as light. Floor 0.
 #pragma once
 #include <cstdint>
 #include <string>
 
 namespace lfdsim {
 
-/// What light of 3 values in each `stride` floats is for.
+/// What light is of, which decides how bright it may be.
 enum class LightOf {
-    panel,   // which shows at most 1, its white
+    panel,   // shows at most 1, its white
     picture  // of a display, whose subpixels and lenses may be some times as bright as its mean white
 };
-/// What to warn of, after the picture's name; empty: nothing. A picture is doubted where it holds whole numbers only, or more
-/// than 16.
+/// Returns the warning, to follow the picture's name, or an empty text. `light` has R, G, B at the beginning of each `stride`
+/// floats. A panel's light is doubted above 1; a picture's where it also has whole numbers only, or exceeds 16.
 std::string above_white(const float* light, std::int64_t pixels, int stride, LightOf);
 
 }  // namespace lfdsim

@@ -7,6 +7,7 @@
 namespace lfdsim {
 namespace {
 
+/// Returns the weights of the distances 0, 1, ... up to 4 sigma; those of both sides sum to 1.
 std::vector<float> half_gaussian(double sigma) {
     std::vector<double> weights(1, 1.0);
     double sum = 1;
@@ -27,6 +28,7 @@ void blur(std::vector<float>& values, int columns, int rows, int channels, doubl
     if (reach == 0) return;
     const std::size_t row_length = std::size_t(columns) * std::size_t(channels);
 
+    // The Gaussian is a product of one across and one down: first across, each row with repeated pixels at its ends, then down.
     std::vector<float> across(values.size());
     tbb::parallel_for(0, rows, [&](int row) {
         const float* from = &values[std::size_t(row) * row_length];

@@ -19,6 +19,7 @@ struct RowDifference {
     int column = 0, channel = 0;
 };
 
+// Fills all figures but SSIM. Sums are made row by row in order, so that the number of threads changes no bit.
 void compare_light(const Image& a, const Image& b, const Rect& region, Comparison& result) {
     std::vector<RowDifference> rows(std::size_t(region.y1 - region.y0));
     tbb::parallel_for(region.y0, region.y1, [&](int y) {

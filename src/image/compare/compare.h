@@ -6,15 +6,17 @@
 
 namespace lfdsim {
 
+/// The figures of docs/measures.md, "Measures".
 struct Comparison {
-    double ssim;            // Wang et al. 2004, luma of sRGB-encoded values: see docs/model.md
-    double psnr_db;         // linear light, peak 1; infinite for equal images
-    double rmse;            // linear light, over all channels
-    double max_difference;  // linear light
-    int max_column, max_row, max_channel;
+    double ssim;                           // Wang et al. 2004, luma of sRGB-encoded values; 1 for equal images
+    double psnr_db;                        // -20 log10(rmse): linear light, peak 1; infinite for equal images
+    double rmse;                           // linear light, over all channels
+    double max_difference;                 // linear light, of one channel; not negative
+    int max_column, max_row, max_channel;  // of the first pixel, row by row, with that difference
 };
 
-/// Throws InputError unless both have the same size, at least 11 x 11. `region` restricts all figures.
+/// Compares two pictures, or one region of both. Throws InputError unless both have the same size and the region is at least 11 x
+/// 11 pixels and within them.
 Comparison compare(const Image& a, const Image& b, std::optional<Rect> region = {});
 
 }  // namespace lfdsim

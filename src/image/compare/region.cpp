@@ -13,6 +13,7 @@ Region Region::polygon(std::span<const std::array<double, 2>> corners, int width
     if (corners.size() < 3) throw std::invalid_argument("a polygon has three corners or more");
     Region region{0, std::vector<Row>(std::size_t(height), Row{0, 0})};
     for (int row = 0; row < height; ++row) {
+        // A convex polygon cuts the line through a row's centres in one interval, between two of its edges.
         const double y = row + 0.5;
         double least = std::numeric_limits<double>::infinity(), most = -least;
         for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -22,6 +23,7 @@ Region Region::polygon(std::span<const std::array<double, 2>> corners, int width
             least = std::min(least, x);
             most = std::max(most, x);
         }
+        // Pixel i counts if least <= i + 0.5 < most.
         const auto column = [width](double x) { return int(std::clamp(std::ceil(x - 0.5), 0., double(width))); };
         if (least < most) region.rows[std::size_t(row)] = {column(least), column(most)};
     }

@@ -1,4 +1,4 @@
-// Parts of a picture. Floor 0.
+// Parts of a picture with one interval of pixels in each row. Floor 0.
 #pragma once
 #include "image/image.h"
 
@@ -18,8 +18,8 @@ struct Region {
     std::vector<Row> rows;
 
     static Region of(const Rect&);
-    /// The pixels whose centres lie in a convex polygon of at least three corners (x, y), pixels from the picture's upper left
-    /// corner, in a picture of width x height pixels. Throws std::invalid_argument for fewer corners.
+    /// Returns the pixels of a picture of width x height pixels whose centres lie in a convex polygon of at least three corners (x,
+    /// y), pixels from the picture's upper left corner. Throws std::invalid_argument for fewer corners.
     static Region polygon(std::span<const std::array<double, 2>> corners, int width, int height);
 
     std::int64_t pixels() const;

@@ -11,6 +11,7 @@
 
 namespace lfdsim {
 
+// w(k) = exp(-k^2 / (2 sigma^2)) over the sum of all eleven.
 SsimWeights ssim_weights() {
     constexpr double sigma = 1.5;
     SsimWeights weights{};
@@ -58,7 +59,7 @@ Region ssim_middles(const Region& region, int width, int height) {
 
 namespace {
 
-/// Luma of columns [x0, x1) of a row.
+/// Writes the luma of columns [x0, x1) of a row.
 void luma_of_row(const Image& image, int row, int x0, int x1, double* to) {
     const SrgbLine* const lines = srgb_lines().data();
     const float* pixel = image.at(x0, row);
@@ -67,7 +68,7 @@ void luma_of_row(const Image& image, int row, int x0, int x1, double* to) {
 
 using WindowMoments = std::array<std::vector<double>, moments>;
 
-/// The eleven rows of moments that a window covers, moved down the picture row by row.
+/// The eleven rows of moments that a window covers, moved down the picture row by row: row r is kept at r mod 11.
 class WindowRows {
   public:
     WindowRows(const Image& a, const Image& b, Rect box) : a_(a), b_(b), box_(box), columns_(std::size_t(box.x1 - box.x0)) {
@@ -86,8 +87,8 @@ class WindowRows {
             product[x] = va[x] * vb[x];
         }
     }
-    /// SSIM of the windows centred at (x, row), x = box.x0 + ssim_border ...; rows row - ssim_border ... row + ssim_border must be
-    /// loaded.
+    /// Computes the SSIM of the windows centred at (x, row), for x from box.x0 + ssim_border on; the rows from row - ssim_border to
+    /// row + ssim_border must be loaded.
     void windows(int row, std::vector<double>& values) {
         for (std::size_t i = 0; i < moments; ++i) {
             const double* r[ssim_window];
@@ -117,7 +118,8 @@ class WindowRows {
 
 }  // namespace
 
-// Bands of rows go to the threads. Sums over rows are made in row order, so that the number of threads changes no bit.
+// Bands of rows go to the threads, each with ssim_border rows more above and below. Sums over rows are made in row order, so that
+// the number of threads changes no bit.
 std::vector<double> ssim(const Image& a, const Image& b, std::span<const Region> regions) {
     if (a.width != b.width || a.height != b.height)
         throw InputError("", fmt::format("the pictures are {} x {} and {} x {} pixels; only equal sizes can be compared", a.width,

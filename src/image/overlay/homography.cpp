@@ -14,7 +14,7 @@ using Matrix = std::array<double, 9>;
 constexpr const char* names[] = {"top left", "top right", "bottom right", "bottom left"};
 constexpr double least_side = 16, least_sine = 0.0175;  // pixels; of 1 degree
 
-// The unit square's corners (0,0), (1,0), (1,1), (0,1) to these.
+// Returns the map of the unit square's corners (0,0), (1,0), (1,1), (0,1) to p: Heckbert 1989, section 2.2.3.
 Matrix from_square(const Corners& p) {
     const auto& [p0, p1, p2, p3] = p;
     const double sx = p0[0] - p1[0] + p2[0] - p3[0], sy = p0[1] - p1[1] + p2[1] - p3[1];
@@ -32,7 +32,7 @@ Matrix from_square(const Corners& p) {
             1};
 }
 
-// The inverse up to a factor, which cancels in a homography.
+// Returns the inverse up to a factor, which cancels in a homography.
 Matrix adjugate(const Matrix& m) {
     const auto minor = [&](int a, int b, int c, int d) {
         return m[std::size_t(a)] * m[std::size_t(d)] - m[std::size_t(b)] * m[std::size_t(c)];
@@ -54,7 +54,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
 void check_corners(const std::string& where, const Corners& corners) {
     constexpr const char* order = "give top left, top right, bottom right, bottom left of the screen as its viewer sees it";
     const auto named = [&](std::size_t k) { return fmt::format("{} ({:g},{:g})", names[k], corners[k][0], corners[k][1]); };
-    std::array<double, 4> sines;  // of the turn to the right at each corner
+    std::array<double, 4> sines;  // of the change of direction to the right at each corner
     for (std::size_t k = 0; k < 4; ++k) {
         const Point &before = corners[(k + 3) % 4], &here = corners[k], &after = corners[(k + 1) % 4];
         const double ax = here[0] - before[0], ay = here[1] - before[1], bx = after[0] - here[0], by = after[1] - here[1];
@@ -81,6 +81,7 @@ Point Homography::operator()(double x, double y) const {
     return {(m_[0] * x + m_[1] * y + m_[2]) * per_w, (m_[3] * x + m_[4] * y + m_[5]) * per_w};
 }
 
+// With p = (X/w, Y/w): dp/dx = (a - p_x g)/w, (d - p_y g)/w, and by y with b, e and h.
 std::array<Point, 2> Homography::derivatives(double x, double y) const {
     const Point p = (*this)(x, y);
     const double per_w = 1 / w(x, y);

@@ -14,31 +14,31 @@
 
 namespace lfdsim {
 
-/// The photograph on the view's grid, each pixel the mean light over its area; black outside `screen`.
+/// A photograph on the view's grid.
 struct Aligned {
-    Image light;
+    Image light;                          // the photograph's mean light over each pixel's area; black outside `screen`
     Region screen;                        // pixels that show the screen in both pictures
     std::vector<std::uint8_t> saturated;  // for each pixel: 1 where the camera may have been saturated
 };
 
-/// `saturation`: linear light from which a photograph's value means "this or more"; infinite where values have no upper limit. Both
-/// corners must pass check_corners(). `part` restricts the screen to some pixels of the view. Where the job is cancelled, rows stay
-/// black.
+/// Maps a photograph to the grid of a view of view_width x view_height pixels. `saturation` is the linear light from which a value
+/// of the photograph means "this or more", infinite where values have no upper limit. Both corners must pass check_corners().
+/// `part` restricts the screen to some pixels of the view. Where the job is cancelled, rows stay black.
 Aligned align(const Image& photograph, const Corners& in_photograph, int view_width, int view_height, const Corners& in_view,
               double saturation, std::optional<Rect> part = {}, const Job& = Job());
 
-/// Light of the photograph divided by light of the simulation: R, G, B. A channel that is black in the simulation gets the mean of
-/// the others. The photograph's channels must exceed `black` somewhere. Throws InputError if there is nothing to fit: no common
-/// pixels, or the screen black in either picture or saturated all over.
+/// Returns the light of the photograph divided by that of the simulation, for R, G, B. A channel that is black in the simulation
+/// gets the mean of the others. The photograph's channels must exceed `black` somewhere. Throws InputError if there is nothing to
+/// fit: no common pixels, or a screen that is black in either picture or saturated on more than 99 % of it.
 std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photograph, double black);
 
-/// The corners in the photograph, each moved by at most `most_px` of its pixels to where view and photograph agree best; `aligned`
-/// is the result of align() with the given corners, `gains` that of fit_gains() with `aligned`. A corner that the light does not
-/// determine stays. Where the job is cancelled, they are as far as the fit had come.
+/// Returns the corners in the photograph, each moved by at most `most_px` of its pixels to where view and photograph agree best.
+/// `aligned` is the result of align() with the given corners, `gains` that of fit_gains() with `aligned`. A corner that the light
+/// does not determine stays. Where the job is cancelled, the result is what the fit had reached.
 Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& aligned, const std::array<double, 3>& gains,
                     const Corners& in_photograph, double most_px, const Job& = Job());
 
-/// How photograph and simulation relate, and both made comparable.
+/// The relation of photograph and simulation, and both in the light of the simulation.
 struct Match {
     std::array<double, 3> gains;  // see fit_gains()
     double blur_px;               // standard deviation in pixels of the view; 0 where none was fitted
@@ -50,18 +50,18 @@ struct Match {
 
 /// Fits gains and, with `fit_blur`, a Gaussian blur of the simulated picture. `white` is the brightest light that the photograph
 /// can hold; `black` as in fit_gains(). Throws InputError as fit_gains() does, and where no window of 11 x 11 pixels fits into the
-/// screen. Where the job is cancelled, the blur is as far as the fit had come.
+/// screen. Where the job is cancelled, the blur is what the fit had reached.
 Match match(const Image& simulated, const Aligned& photograph, bool fit_blur, double white, double black, const Job& = Job());
 
-/// A click may miss the edge of a picture of width x height pixels, and a view may be a close-up: throws InputError at `where` for
-/// a corner that is more than so many pictures outside.
+/// Throws InputError at `where` for a corner that is outside a picture of width x height pixels by more than `pictures` times its
+/// size. Corners a little outside are right: a click may miss the edge, and a view may be a close-up.
 void check_near(const std::string& where, const Corners&, const std::string& picture, int width, int height, double pictures);
 
 /// A photograph of a screen.
 struct ScreenPhoto {
     Image image;                         // as it is stored
-    bool codes = true;                   // its values are codes, which white limits; or light without a limit
-    Encoding encoding = Encoding::srgb;  // of codes
+    bool codes = true;                   // its values were codes, limited by white; false: light without a limit
+    Encoding encoding = Encoding::srgb;  // of these codes
     int orientation = 1;                 // see read_orientation()
     Corners corners{};                   // of the screen, in pixels of the picture as viewers show it
 };
@@ -78,11 +78,12 @@ struct Overlay {
     Match match;
 };
 
-/// Memory that lay_over() takes for a view of this size, besides that of the pictures.
+/// Returns the bytes that lay_over() takes for a view of this size, in addition to the pictures.
 constexpr double overlay_bytes(double view_width, double view_height) { return 160 * view_width * view_height; }
 
-/// Runs all of the steps above. Both corners must pass check_corners(). Throws InputError as the steps do, and at `--fit-corners`
-/// for fitted corners that do not pass. If the job is cancelled it ends soon, and what it returns means nothing.
+/// Aligns, fits and matches a photograph and a view. Both corners must pass check_corners(). Throws InputError as the steps do, and
+/// at
+/// `--fit-corners` for fitted corners that do not pass. If the job is cancelled it ends soon, with a meaningless result.
 Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto, const OverlayOptions&, const Job& = Job());
 
 }  // namespace lfdsim

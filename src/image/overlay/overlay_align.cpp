@@ -7,13 +7,13 @@
 namespace lfdsim {
 namespace {
 
-/// Samples a photograph at a point, bilinearly between the pixels around it. add() adds to `sum` and returns whether one of them is
-/// saturated.
+/// Samples a photograph at points, bilinearly between the centres of the four pixels around each.
 class PhotographSampler {
   public:
     PhotographSampler(const Image& image, double saturation)
         : image_(image), saturation_(float(std::min(saturation, double(std::numeric_limits<float>::max())))) {}
 
+    /// Adds the light at a point to sum[0..2], and returns whether one of the four pixels is saturated.
     bool add(const Point& p, float* sum) const {
         // In this order NaN, from a sample on the horizon, becomes 0.
         const double x = std::min(std::max(0.0, p[0] - 0.5), image_.width - 1.0);
@@ -51,7 +51,7 @@ void keep_covered(Region& region, const Homography& to_photograph, const Image& 
     }
 }
 
-/// The number of samples along a side of a pixel at which they lie at most one pixel of the photograph apart.
+/// Returns the number of samples along a side of a pixel with which they are at most one pixel of the photograph apart, 64 at most.
 int samples_along(const Point& derivative) {
     constexpr double most = 64;
     return int(std::clamp(std::ceil(std::hypot(derivative[0], derivative[1]) - 1e-9), 1.0, most));

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-// Gauss-Newton steps over the eight coordinates of the corners. The photograph is resampled to the view's grid once; from there on
-// it moves in that grid. Both pictures are blurred, at first by as much as a corner may be misplaced, then less and less.
+// Gauss-Newton steps over the eight coordinates of the corners: docs/measures.md, "Overlay". The photograph is resampled to the
+// view's grid once; from there on it moves in that grid. Both pictures are blurred, at first by the largest displacement of a
+// corner, then less and less.
 namespace lfdsim {
 namespace {
 
-constexpr int unknowns = 8;
+constexpr int unknowns = 8;  // x and y of the four corners, in the order of Corners
 using Vector = std::array<double, unknowns>;
 using NormalMatrix = std::array<Vector, unknowns>;
 
@@ -44,7 +45,7 @@ Corners moved(Corners corners, const Vector& by) {
     return corners;
 }
 
-/// A level of blur: the mean of the channels of both pictures, blurred alike.
+/// The fit at one blur: both pictures, the means of their channels in the view's light, blurred alike.
 class BlurLevel {
   public:
     BlurLevel(std::vector<float> photograph, std::vector<float> view, const Aligned& aligned, const Corners& corners, double sigma)
@@ -57,19 +58,21 @@ class BlurLevel {
           border_(int(std::ceil(3 * sigma)) + 1) {
         blur(photograph_, width_, height_, 1, sigma);
         blur(view_, width_, height_, 1, sigma);
-        constexpr double enough = 5e5;  // pixels for a step
+        constexpr double enough = 5e5;  // pixels that a step uses; of larger screens only every stride_-th one along each side
         stride_ = std::max(1, int(std::sqrt(double(aligned.screen.pixels()) / enough)));
     }
 
+    /// The normal equations J^T J step = J^T residual, J the derivatives of the photograph's light by the unknowns.
     struct Sums {
         NormalMatrix normal{};
         Vector right{};
-        double squares = 0, pixels = 0, light = 0;  // squared residuals; squared light of the view
+        double squares = 0, pixels = 0, light = 0;  // sum of squared residuals; number of pixels; sum of squared light of the view
     };
-    /// The normal equations of a step from corners that have moved `by` in the view's grid.
+    /// Returns the normal equations of a step from corners that have moved `by` in the view's grid. Rows are summed in order, so
+    /// that the number of threads changes no bit.
     Sums sums(const Vector& by) const {
         const Homography now(corners_, moved(corners_, by));
-        std::vector<Homography> tried;  // each with one coordinate moved one pixel further
+        std::vector<Homography> tried;  // each with one coordinate moved one pixel further, for the derivatives
         for (std::size_t k = 0; k < unknowns; ++k) {
             Vector further = by;
             further[k] += 1;
@@ -104,13 +107,15 @@ class BlurLevel {
         const Region::Row& row = aligned_.screen.rows[std::size_t(k)];
         return x >= row.from && x < row.to;
     }
-    /// Whether a pixel is far enough from the screen's border that the black beside it does not blur in; the screen is convex.
+    /// Whether a pixel is used: not saturated, and so far from the screen's border that the black outside does not blur in. The
+    /// screen is convex, so the corners of a square decide.
     bool counts(int x, int y) const {
         for (const int i : {-border_, border_})
             for (const int j : {-border_, border_})
                 if (!on_screen(x + i, y + j)) return false;
         return !aligned_.saturated[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
     }
+    /// Adds one pixel of the view: the photograph's light where `now` maps it, by bilinear interpolation, and its derivatives.
     void add(Sums& sums, int x, int y, const Homography& now, const std::vector<Homography>& tried) const {
         const Point p = now(x + 0.5, y + 0.5);
         const double column = p[0] - 0.5, row = p[1] - 0.5;
@@ -135,10 +140,10 @@ class BlurLevel {
         ++sums.pixels;
     }
 
-    std::vector<float> photograph_, view_;
+    std::vector<float> photograph_, view_;  // one value a pixel of the view
     const Aligned& aligned_;
-    const Corners& corners_;
-    const int width_, height_, border_;
+    const Corners& corners_;             // in the view
+    const int width_, height_, border_;  // pixels; border_: beyond the blur's reach
     int stride_;
 };
 
@@ -146,6 +151,7 @@ class BlurLevel {
 
 Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& photograph, const std::array<double, 3>& gains,
                     const Corners& in_photograph, double most_px, const Job& job) {
+    // The means of the channels of both pictures, the photograph's divided by the gains.
     const Homography to_photograph(in_view, in_photograph), to_view(in_photograph, in_view);
     std::vector<float> light(view.rgb.size() / 3), simulated(light.size());
     for (std::size_t k = 0; k < photograph.screen.rows.size(); ++k)
@@ -157,7 +163,7 @@ Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& ph
                 simulated[i] += view.at(x, y)[c] / 3;
             }
         }
-    const auto limited = [&](const Vector& by) {  // no corner further than most_px of the photograph
+    const auto limited = [&](const Vector& by) {  // shortened so that no corner moves by more than most_px of the photograph
         Vector result{};
         for (std::size_t k = 0; k < 4; ++k) {
             const Point from = in_photograph[k], to = to_photograph(in_view[k][0] + by[2 * k], in_view[k][1] + by[2 * k + 1]);
@@ -169,16 +175,19 @@ Corners fit_corners(const Image& view, const Corners& in_view, const Aligned& ph
         return result;
     };
 
+    // most_px in the view's grid, by the mean scale at the screen's middle, and the prior's standard deviation.
     const auto [along_x, along_y] =
         to_photograph.derivatives((in_view[0][0] + in_view[2][0]) / 2, (in_view[0][1] + in_view[2][1]) / 2);
     const double reach = most_px / std::sqrt(std::hypot(along_x[0], along_x[1]) * std::hypot(along_y[0], along_y[1]));
-    const double click_px = 0.4 * reach;  // how accurately a corner is known before the fit, in the view's grid
+    const double click_px = 0.4 * reach;  // standard deviation of a given corner, in the view's grid
     Vector by{};
+    // Level by level of blur, each from the result of the one before it; a level ends when a step does not help or is very small.
     for (double sigma = std::max(1.0, reach); sigma >= 1 && !job.cancelled(); sigma /= 2) {
         const BlurLevel level(light, simulated, photograph, in_view, sigma);
         BlurLevel::Sums here = level.sums(by);
         if (here.pixels == 0) break;
-        // After the blur the noise of neighbours is correlated: so many pixels count as one.
+        // After the blur the noise of neighbours is correlated: 4 pi sigma^2 pixels count as one. `known` is the prior's weight in
+        // the normal equations, the variance of a residual over that of a corner.
         const double alike = std::max(1.0, 4 * pi * sigma * sigma / level.pixels_per_sample());
         const double known = std::max(here.squares, 1e-12 * here.light) / here.pixels * alike / (click_px * click_px);
         const auto cost = [&](const BlurLevel::Sums& sums, const Vector& moved_by) {

@@ -11,9 +11,9 @@
 namespace lfdsim {
 namespace {
 
-constexpr int cell_side = 8;          // pixels; more than a blur or a misplaced corner moves light
-constexpr double least_share = 0.05;  // of the brightest cell: darker ones do not determine a gain
-constexpr double least_used = 0.01, most_blur_px = 64;
+constexpr int cell_side = 8;                            // pixels; more than a blur or a misplaced corner moves light
+constexpr double least_share = 0.05;                    // of the brightest cell: darker ones do not determine a gain
+constexpr double least_used = 0.01, most_blur_px = 64;  // share of the screen that must not be saturated; pixels of the view
 constexpr const char* colour_names[] = {"red", "green", "blue"};
 
 /// Mean light of a square of pixels that are on the screen and not saturated.
@@ -22,12 +22,14 @@ struct MeanSquare {
     std::array<double, 3> simulated{}, photograph{};
 };
 
+/// Calls visit(x) for the pixels of a row that are not saturated.
 template <class Visit>
 void for_used_pixels(const Aligned& photo, const Region::Row& row, int y, const Visit& visit) {
     for (int x = row.from; x < row.to; ++x)
         if (!photo.saturated[std::size_t(y) * std::size_t(photo.light.width) + std::size_t(x)]) visit(x);
 }
 
+/// Returns the squares of cell_side pixels that have pixels in use.
 std::vector<MeanSquare> cells_of(const Image& simulated, const Aligned& photo) {
     const int across = (simulated.width + cell_side - 1) / cell_side, down = (simulated.height + cell_side - 1) / cell_side;
     std::vector<MeanSquare> cells(std::size_t(across) * std::size_t(down));
@@ -63,8 +65,9 @@ double median(std::vector<Weighted> all) {
     return all.back().value;
 }
 
-/// The slope of photograph = gain x simulation. Starts with the least sum of absolute residuals, which is the weighted median of
-/// quotients; then least squares with Tukey's weights, which ignore outliers (a reflection, a finger).
+/// Returns the slope of photograph = gain x simulation in channel c. It starts with the least sum of absolute residuals, which is
+/// the weighted median of quotients; then come least squares with Tukey's weights (1 - (r/reach)^2)^2, which ignore outliers (a
+/// reflection, a finger).
 double gain(const std::vector<MeanSquare>& cells, std::size_t c) {
     double brightest = 0;
     for (const MeanSquare& cell : cells) brightest = std::max(brightest, cell.simulated[c]);
@@ -78,8 +81,8 @@ double gain(const std::vector<MeanSquare>& cells, std::size_t c) {
         for (const MeanSquare& cell : cells)
             if (cell.simulated[c] >= least_share * brightest)
                 residuals.push_back({std::abs(cell.photograph[c] - slope * cell.simulated[c]), cell.pixels});
-        const double reach = 4.685 * 1.4826 * median(residuals);  // Tukey's constant, of standard deviations
-        if (reach <= 1e-9 * slope * brightest) break;             // it fits almost exactly
+        const double reach = 4.685 * 1.4826 * median(residuals);  // 1.4826 x the median is the standard deviation of normal ones
+        if (reach <= 1e-9 * slope * brightest) break;             // the fit is almost exact
         double products = 0, squares = 0;
         for (const MeanSquare& cell : cells) {
             const double s = cell.simulated[c], p = cell.photograph[c], r = (p - slope * s) / reach;
@@ -93,7 +96,7 @@ double gain(const std::vector<MeanSquare>& cells, std::size_t c) {
     return slope;
 }
 
-/// The mean of the three channels, each divided by its gain.
+/// Returns the mean of the three channels of each pixel, each channel divided by its gain.
 std::vector<float> gray(const Image& image, const std::array<double, 3>& gain) {
     std::vector<float> result(image.rgb.size() / 3);
     const float r = float(1 / (3 * gain[0])), g = float(1 / (3 * gain[1])), b = float(1 / (3 * gain[2]));
@@ -102,7 +105,7 @@ std::vector<float> gray(const Image& image, const std::array<double, 3>& gain) {
     return result;
 }
 
-/// Sums over rows, in row order for any number of threads.
+/// Returns the sum of of_row(row, y) over a region, added in row order for any number of threads.
 template <class OfRow>
 double sum_over_rows(const Region& region, const OfRow& of_row) {
     std::vector<double> sums(region.rows.size());
@@ -112,8 +115,8 @@ double sum_over_rows(const Region& region, const OfRow& of_row) {
     return total;
 }
 
-/// The place of the minimum of a function that has one in [0, most], to 0.5 % or better: brackets it by doubling from 0.5, then
-/// uses golden sections. Where the job is cancelled it is somewhere in the bracket.
+/// Returns where in [0, most] a function with one minimum has it, to 0.5 % or better: brackets it by doubling from 0.5, then
+/// uses golden sections. Where the job is cancelled, the result is somewhere in the bracket.
 template <class Function>
 double minimum(const Function& f, double most, const Job& job) {
     double low = 0, middle = 0, high = 0.5, best = f(0);
@@ -144,8 +147,9 @@ double minimum(const Function& f, double most, const Job& job) {
     return (low + high) / 2;
 }
 
-/// The blur with the least squares of photograph - k x blurred view, with the best k for each blur: a blur carries light across the
-/// borders of cells, so the gains of the sharp view differ from those of the blurred one.
+/// Returns the blur with the least squares of photograph - k x blurred view, with the best k for each blur: a blur carries light
+/// across the borders of cells, so the gains of the sharp view differ from those of the blurred one. With the best k the squares
+/// are p.p - (b.p)^2/(b.b), p the photograph and b the blurred view.
 double fitted_blur(const Image& simulated, const Aligned& photo, const std::array<double, 3>& gain, const Job& job) {
     const std::vector<float> sharp = gray(simulated, {1, 1, 1}), seen = gray(photo.light, gain);
     const int width = simulated.width, height = simulated.height;
@@ -169,6 +173,7 @@ double fitted_blur(const Image& simulated, const Aligned& photo, const std::arra
     return minimum(squares, std::min(most_blur_px, std::min(width, height) / 8.0), job);
 }
 
+/// Returns the share of the screen's pixels that are not saturated.
 double used_share(const Aligned& photo) {
     const double used = sum_over_rows(photo.screen, [&](const Region::Row& row, int y) {
         double count = 0;
@@ -213,6 +218,7 @@ std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photo, do
 }
 
 Match match(const Image& simulated, const Aligned& photo, bool fit_blur, double white, double black, const Job& job) {
+    // Gains, blur, and gains again for the blurred view.
     const double pixels = double(photo.screen.pixels());
     Match result{fit_gains(simulated, photo, black), 0, used_share(photo), 0, 0, 0, simulated, photo.light};
     if (fit_blur) {
@@ -222,11 +228,13 @@ Match match(const Image& simulated, const Aligned& photo, bool fit_blur, double 
             result.gains = fit_gains(result.simulated, photo, black);
         }
     }
+    // Both in the light of the view, which is clipped where the photograph is.
     for (std::size_t i = 0; i < result.simulated.rgb.size(); ++i) {
         const double g = result.gains[i % 3];
         result.simulated.rgb[i] = float(std::min(double(result.simulated.rgb[i]), white / g));
         result.photograph.rgb[i] = float(result.photograph.rgb[i] / g);
     }
+    // The figures, over the screen.
     const double squares = sum_over_rows(photo.screen, [&](const Region::Row& row, int y) {
         double sum = 0;
         for (int i = 3 * row.from; i < 3 * row.to; ++i) {

@@ -9,7 +9,8 @@
 namespace lfdsim {
 namespace {
 
-/// Viewers show a picture turned as its Exif says; the same point in the picture as it is stored, which is width x height pixels.
+/// Returns, for a point of a picture as viewers show it, rotated or mirrored as its Exif orientation says, the same point in the
+/// picture as it is stored, which is width x height pixels.
 Point as_stored(const Point& shown, int orientation, int width, int height) {
     const auto [x, y] = shown;
     switch (orientation) {
@@ -32,7 +33,7 @@ Point as_stored(const Point& shown, int orientation, int width, int height) {
     }
 }
 
-/// The other way. `width` and `height` are of the picture as it is stored.
+/// Returns the inverse of as_stored(). `width` and `height` are those of the picture as it is stored.
 Point as_shown(const Point& stored, int orientation, int width, int height) {
     const int back = orientation == 6 ? 8 : orientation == 8 ? 6 : orientation;
     return orientation >= 5 ? as_stored(stored, back, height, width) : as_stored(stored, back, width, height);
@@ -52,7 +53,7 @@ Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto photo, c
     const int width = photo.image.width, height = photo.image.height;
     Corners stored;
     for (std::size_t k = 0; k < 4; ++k) stored[k] = as_stored(photo.corners[k], photo.orientation, width, height);
-    // Code values end at white, and the last ones before it are not to be trusted. Light has no such end.
+    // Codes from 250 on count as saturated, and a channel that nowhere exceeds 5 as black. Light has no such limits.
     const auto light = [&](double code) { return photo.encoding == Encoding::srgb ? srgb_to_linear(code / 255) : code / 255; };
     constexpr double none = std::numeric_limits<double>::infinity();
     const double saturation = photo.codes ? light(250) : none, white = photo.codes ? 1 : none, black = photo.codes ? light(5) : 0;

@@ -19,7 +19,7 @@ double encoded_luma(const float* rgb) {
     return 0.2126 * code(rgb[0]) + 0.7152 * code(rgb[1]) + 0.0722 * code(rgb[2]);
 }
 
-/// -1 blue, 0 white, 1 red.
+/// Writes the colour of a difference: -1 blue, 0 white, 1 red.
 void paint(double difference, float* rgb) {
     const double t = std::clamp(difference, -1.0, 1.0), pale = srgb_to_linear(1 - std::abs(t));
     rgb[0] = float(t < 0 ? pale : 1);
