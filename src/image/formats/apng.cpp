@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t signature_bytes = 8, header_end = signature_bytes + 25;  // the signature; IHDR with its length and check sum
 
+/// Appends the `count` lowest bytes of a value, the highest of them first, as PNG has numbers.
 void put(std::string& bytes, std::uint32_t value, int count) {
     for (int k = count - 1; k >= 0; --k) bytes += char(value >> (8 * k) & 0xff);
 }
@@ -28,6 +29,7 @@ std::uint32_t number_at(std::string_view png, std::size_t place) {
     return value;
 }
 
+/// Returns a chunk: the number of its data's bytes, its type, the data, and the check sum of type and data.
 std::string chunk(std::string_view type, std::string_view data) {
     std::string body(type), bytes;
     body += data;
@@ -37,7 +39,7 @@ std::string chunk(std::string_view type, std::string_view data) {
     return bytes;
 }
 
-/// The parts of a PNG: everything before its pixels, and its pixels, compressed.
+/// The parts of a PNG of one frame: everything before its pixels, and its pixels, compressed.
 struct Still {
     std::string head, pixels;
 };
@@ -58,6 +60,7 @@ Still still(const Image& frame) {
     return parts;
 }
 
+/// Returns the chunk that precedes a frame's pixels, with its size and duration.
 std::string frame_control(std::uint32_t sequence, const Image& frame, double seconds) {
     std::string data;
     put(data, sequence, 4);
@@ -67,7 +70,7 @@ std::string frame_control(std::uint32_t sequence, const Image& frame, double sec
     put(data, 0, 4);
     put(data, std::uint32_t(std::lround(seconds * 1000)), 2);
     put(data, 1000, 2);
-    put(data, 0, 2);  // each frame covers the last one wholly
+    put(data, 0, 2);  // dispose_op none, blend_op source: each frame replaces the one before it
     return chunk("fcTL", data);
 }
 
@@ -83,6 +86,8 @@ void write_animation(const std::filesystem::path& path, std::span<const Image> f
     std::vector<Still> stills(frames.size());
     tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t k) { stills[k] = still(frames[k]); });
 
+    // The head of the first frame with acTL after IHDR, then frames: the first one as IDAT, which every program shows, the others
+    // as fdAT. fcTL and fdAT are numbered in one sequence.
     std::string control;
     put(control, std::uint32_t(frames.size()), 4);
     put(control, 0, 4);  // without end

@@ -8,11 +8,12 @@
 
 namespace lfdsim {
 
-/// The nearest 16-bit code; clips like Encoder8.
+/// Returns the nearest 16-bit code; clips like Encoder8.
 std::uint16_t encode16(float light, Encoding);
 
-/// Equals round(255 encode(x)) in double precision for every float x; clips to [0, 1], NaN gives 0.
-/// The leading bits of x pick a bucket that holds at most one step between codes; a comparison with that step decides.
+/// A table that encodes light as the nearest 8-bit code: equal to round(255 encode(x)) in double precision for every float x,
+/// clipped to [0, 1], 0 for NaN. The leading bits of x select a bucket that contains at most one step between codes; a comparison
+/// with that step decides.
 class Encoder8 {
   public:
     static const Encoder8& of(Encoding);
@@ -26,8 +27,8 @@ class Encoder8 {
   private:
     explicit Encoder8(Encoding);
 
-    // Steps lie 0.4 % apart at the densest (linear, near 1; sRGB 1.2 % near 0.5), buckets 2^-7 of their octave; the first step is
-    // above 2^-13 (sRGB: 0.5/255/12.92 = 2^-12.7).
+    // Steps are 0.4 % of the light apart at the densest (linear, near 1; sRGB 1.2 % near 0.5), buckets 2^-7 of their octave wide;
+    // the first step is above 2^-13 (sRGB: 0.5/255/12.92 = 2^-12.7).
     static constexpr float least = 0x1p-13f;
     static constexpr std::uint32_t base = std::bit_cast<std::uint32_t>(least);
     static constexpr int shift = 16;

@@ -11,6 +11,7 @@
 namespace lfdsim {
 namespace {
 
+// Returns the code of light, both in [0, 1]; clips.
 double encode(Encoding encoding, double light) {
     return encoding == Encoding::srgb ? linear_to_srgb(light) : std::clamp(light, 0.0, 1.0);
 }
@@ -25,7 +26,7 @@ std::vector<float> make_table(Encoding encoding, int bits) {
 
 }  // namespace
 
-// IEC 61966-2-1:1999, section 5.2.
+// The curves are those of IEC 61966-2-1:1999, section 5.2.
 double srgb_to_linear(double code) {
     code = std::clamp(code, 0.0, 1.0);
     return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
@@ -57,6 +58,7 @@ Encoder8::Encoder8(Encoding encoding) {
         while (code_of(std::nextafter(x, 0.0f)) >= k) x = std::nextafter(x, 0.0f);
         step_[std::size_t(k)] = x;
     }
+    // The code at the beginning of each bucket.
     for (std::size_t i = 0; i < buckets; ++i)
         guess_[i] = std::uint8_t(code_of(std::bit_cast<float>(base + (std::uint32_t(i) << shift))));
 }

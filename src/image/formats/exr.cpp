@@ -37,7 +37,7 @@ constexpr int most_tile = 8192;
 /// claim.
 void start_library() {
     static const bool started = [] {
-        // Where not all threads are to be had (engine/devices/threads.h), the calling one does the work.
+        // Where the number of threads is limited (engine/devices/threads.h), the calling thread does the work.
         const int allowed = int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
         const int processors = tbb::info::default_concurrency();
         Imf::setGlobalThreadCount(allowed < processors ? 0 : processors);
@@ -47,7 +47,7 @@ void start_library() {
     static_cast<void>(started);
 }
 
-/// The channels of a layer, or for "" those of the picture itself.
+/// Returns the names of a layer's channels, or for "" those of the picture.
 Names channel_names(const std::string& layer) {
     const std::string prefix = layer.empty() ? "" : layer + ".";
     return {prefix + "R", prefix + "G", prefix + "B"};
@@ -61,6 +61,7 @@ struct PixelWindow {
         : x0(box.min.x), y0(box.min.y), columns(std::int64_t(box.max.x) - x0 + 1), rows(std::int64_t(box.max.y) - y0 + 1) {}
 };
 
+/// Refuses a file that lacks a channel or has fewer samples of it than pixels.
 void check_channels(const InputFile& file, const Imf::ChannelList& channels, const Names& names) {
     for (const std::string& name : names) {
         const Imf::Channel* const channel = channels.findChannel(name);
@@ -69,7 +70,7 @@ void check_channels(const InputFile& file, const Imf::ChannelList& channels, con
     }
 }
 
-/// How many bytes one byte of the file stands for at best.
+/// Returns the largest number of unpacked bytes for each byte of the file.
 double most_packed(Imf::Compression compression) {
     switch (compression) {
         case Imf::NO_COMPRESSION:
@@ -81,12 +82,13 @@ double most_packed(Imf::Compression compression) {
             return 32.0 / 3;  // a flat block of 4 x 4 half floats
         case Imf::DWAA_COMPRESSION:
         case Imf::DWAB_COMPRESSION:
-            return 1032 * 64;  // keeps one value of a flat block of 8 x 8, before deflate
+            return 1032 * 64;  // of a flat block of 8 x 8 one value is kept, which deflate then packs
         default:
-            return 1032;  // deflate; PIZ packs less
+            return 1032;  // the most that deflate packs into a byte; PIZ packs less
     }
 }
 
+/// Refuses windows that are out of proportion to the file.
 void check_windows(const InputFile& file, const PixelWindow& data, const PixelWindow& display, Imf::Compression compression) {
     file.check_size(data.columns, data.rows, most_packed(compression) / 6);  // three half floats are 6 bytes
     // Parts of the frame without data are black and take no bytes, so a small file may claim a large frame:
@@ -97,9 +99,11 @@ void check_windows(const InputFile& file, const PixelWindow& data, const PixelWi
                                 display.rows, data.columns, data.rows));
 }
 
-/// Copies what lies in both windows; outside the data the picture stays black. Alpha, if there is any, must be 1 where data are.
+/// Copies the pixels that lie in both windows; outside the data window the picture stays black. Alpha, if there is any, must be 1
+/// in the data window.
 void read_rows(const InputFile& file, Imf::InputFile& exr, const Names& names, const PixelWindow& data, const PixelWindow& display,
                const Pixels& pixels) {
+    // Blocks of rows of the data window, in memory of the frame's rows only.
     constexpr const char* alpha = "A";
     const std::int64_t block_rows = std::clamp(most_block_pixels / data.columns, std::int64_t(1), most_block_rows);
     std::vector<float> block(std::size_t(data.columns * block_rows) * 3), full;
@@ -130,7 +134,7 @@ void read_rows(const InputFile& file, Imf::InputFile& exr, const Names& names, c
     }
 }
 
-/// The next bytes of a header.
+/// Reads a header byte by byte. The file is refused where it ends within a number or word.
 class HeaderBytes {
   public:
     explicit HeaderBytes(const InputFile& file) : file_(file) { go_to(0); }
@@ -155,7 +159,7 @@ class HeaderBytes {
     const InputFile& file_;
 };
 
-/// The bytes of attributes that have as many in every file.
+/// The sizes in bytes of the types of attributes that have a fixed one.
 constexpr std::pair<std::string_view, std::int64_t> attribute_bytes[] = {{"box2f", 16},
                                                                          {"box2i", 16},
                                                                          {"chromaticities", 32},
@@ -181,9 +185,9 @@ constexpr std::pair<std::string_view, std::int64_t> attribute_bytes[] = {{"box2f
                                                                          {"v3f", 12},
                                                                          {"v3i", 12}};
 
-/// Whether an attribute's value, which comes next, takes the bytes that it claims, no more and no fewer, and memory in proportion
-/// to them. OpenEXR goes on where it has read a value to, not where that claims to end, and what it then takes for a size may be
-/// any number.
+/// Whether an attribute's value, which begins at the next byte, takes exactly the bytes that it claims, and memory in proportion to
+/// them. OpenEXR continues where its reading of a value ended, not where the value claims to end; a difference would make it read a
+/// size from other bytes, which may be any number.
 bool holds_what_it_claims(HeaderBytes& bytes, std::string_view type, std::int64_t size) {
     for (const auto& [name, fixed] : attribute_bytes)
         if (type == name) return size == fixed;
@@ -211,17 +215,17 @@ bool holds_what_it_claims(HeaderBytes& bytes, std::string_view type, std::int64_
         while (!bytes.word().empty()) bytes.skip(16);
         return bytes.at() == end;
     }
-    return true;  // texts, and what OpenEXR keeps as it is
+    return true;  // texts, and values of unknown types, which OpenEXR keeps as bytes
 }
 
-/// OpenEXR takes memory for what an attribute says that it holds before it reads that.
+/// Refuses attributes that claim more than the file has: OpenEXR allocates what an attribute claims before it reads it.
 void check_attributes(const InputFile& file) {
     HeaderBytes bytes(file);
     if (bytes.number() != Imf::MAGIC) file.refuse("is not an EXR file, whatever its name says");
     const bool parts = (bytes.number() & Imf::MULTI_PART_FILE_FLAG) != 0;
     for (bool more = true; more;) {
         std::string name = bytes.word();
-        more = parts && !name.empty();  // the headers of parts end with an empty one
+        more = parts && !name.empty();  // in a file of several parts an empty header follows the last one
         for (; !name.empty(); name = bytes.word()) {
             const std::string type = bytes.word();
             const std::int64_t size = bytes.number(), value = bytes.at();
@@ -236,6 +240,7 @@ void check_attributes(const InputFile& file) {
     }
 }
 
+/// Returns the number of rows that a compression packs together.
 std::int64_t rows_together(Imf::Compression compression) {
     switch (compression) {
         case Imf::NO_COMPRESSION:
@@ -252,7 +257,8 @@ std::int64_t rows_together(Imf::Compression compression) {
     }
 }
 
-/// The table of blocks has 8 bytes for each, and OpenEXR takes memory for whole blocks, several at a time.
+/// Refuses blocks that are out of proportion to the file: the table of blocks has 8 bytes for each, and OpenEXR allocates whole
+/// blocks, several at a time. 16 MiB are always allowed.
 void check_blocks(const InputFile& file, const Imf::Header& header, const PixelWindow& data) {
     constexpr double usual = 1 << 24;
     std::int64_t columns = data.columns, rows = rows_together(header.compression());
@@ -272,7 +278,7 @@ void check_blocks(const InputFile& file, const Imf::Header& header, const PixelW
                                 file.size()));
 }
 
-/// The header, of which nothing is out of proportion to the file. Throws InputError, Iex::BaseExc.
+/// Returns the header, after checks that nothing in it is out of proportion to the file. Throws InputError, Iex::BaseExc.
 Imf::Header checked_header(const InputFile& file) {
     check_attributes(file);
     Imf::StdIFStream stream(file.name().c_str());
@@ -292,7 +298,7 @@ Imf::Header checked_header(const InputFile& file) {
     file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
 }
 
-/// Reads three channels: all must be there, or none where they are not `needed`.
+/// Reads three channels. All of them must be there; where they are not `needed`, a file with none of them is left unread.
 void read_channels(const InputFile& file, const Names& names, bool needed, const Allocate& allocate) {
     start_library();
     try {
@@ -311,7 +317,7 @@ void read_channels(const InputFile& file, const Names& names, bool needed, const
     }
 }
 
-/// Puts a picture's channels into the file that is being made; the picture must outlive the writing.
+/// Adds a picture's channels to a header and a frame buffer; the picture must outlive the writing.
 void add_channels(const Names& names, const Image& image, Imf::Header& header, Imf::FrameBuffer& frame) {
     for (std::size_t c = 0; c < 3; ++c) {
         header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));

@@ -22,7 +22,7 @@ fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.
 
 constexpr std::string_view partial_mark = ".partial-";
 
-// The file and the process in NAME.partial-PID; 0: it is no such name.
+// Returns the file and the process in a name NAME.partial-PID; process 0 for any other name.
 std::pair<std::string_view, pid_t> partial(std::string_view name) {
     const std::size_t mark = name.rfind(partial_mark);
     if (mark == name.npos || mark == 0) return {};
@@ -33,7 +33,8 @@ std::pair<std::string_view, pid_t> partial(std::string_view name) {
                                                               : std::pair<std::string_view, pid_t>();
 }
 
-// Whoever writes a file holds its lock, which the system lets go however that process ends.
+// Whether a process is writing a file: it holds the file's lock, which the system releases however that process ends. A file that
+// cannot be opened counts as held.
 bool is_held(const fs::path& path) {
     const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return true;
@@ -81,6 +82,7 @@ OutputFile::OutputFile(const fs::path& path) : path_(path), partial_(fmt::format
     remove_abandoned(folder_of(path), path.filename());
     const int descriptor = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0) {
+        // A full disk or table of files is no fault of the name.
         if (errno == ENOSPC || errno == EDQUOT || errno == EIO || errno == EMFILE || errno == ENFILE) fail(errno);
         throw InputError(path.string(), fmt::format("cannot be written: {}", reason(errno)));
     }

@@ -1,4 +1,5 @@
-// Input and output files for the image formats. Internal to src/image. Floor 0.
+// Input and output files for the image formats: limits before memory is taken, and outputs that appear when they are complete.
+// Internal to src/image. Floor 0.
 #pragma once
 #include "base/input_error.h"
 
@@ -25,11 +26,11 @@ class InputFile {
     std::FILE* stream() const { return stream_.get(); }
     std::int64_t size() const { return size_; }
 
-    /// Throws InputError.
+    /// Throws InputError that names the file.
     [[noreturn]] void refuse(const std::string& what) const { throw InputError(name_, what); }
 
-    /// To be called before anything is allocated for columns x rows pixels: refuses 2^31 or more, and more than a file of this
-    /// size can hold when each byte yields at most `pixels_per_byte`.
+    /// Refuses columns x rows pixels if they are none, 2^31 or more, or more than a file of this size can contain when each byte
+    /// yields at most `pixels_per_byte`. It must be called before anything is allocated for them.
     void check_size(std::int64_t columns, std::int64_t rows, double pixels_per_byte) const;
 
   private:
@@ -38,11 +39,11 @@ class InputFile {
     std::int64_t size_ = 0;
 };
 
-/// The destination of an image.
+/// The destination of an image. Positions are bytes from its beginning.
 class Output {
   public:
     virtual ~Output() = default;
-    virtual std::string name() const = 0;
+    virtual std::string name() const = 0;  // for messages
     virtual void write(const void* data, std::size_t bytes) = 0;
     virtual void seek(std::int64_t position) = 0;
     virtual std::int64_t position() const = 0;
@@ -55,16 +56,16 @@ class OutputMemory : public Output {
     void write(const void* data, std::size_t bytes) override;
     void seek(std::int64_t position) override { position_ = std::size_t(position); }
     std::int64_t position() const override { return std::int64_t(position_); }
-    std::string take() { return std::move(bytes_); }
+    std::string take() { return std::move(bytes_); }  // all that was written
 
   private:
     std::string bytes_;
     std::size_t position_ = 0;
 };
 
-/// Writes to PATH.partial-PID; commit() renames it to PATH, and without one the destructor removes it. What a killed program left
-/// of the same PATH is removed first. Throws InputError when the file cannot be made there, std::runtime_error when writing fails
-/// (disk full).
+/// A file written as PATH.partial-PID, which commit() renames to PATH; without commit() the destructor removes it. Such files that
+/// killed programs left of the same PATH are removed first. Throws InputError when the file cannot be made there,
+/// std::runtime_error when writing fails (disk full).
 class OutputFile : public Output {
   public:
     explicit OutputFile(const std::filesystem::path& path);
@@ -89,12 +90,12 @@ class OutputFile : public Output {
 /// Throws InputError unless a file can be made or replaced at `path`, as far as can be checked without writing.
 void check_replaceable(const std::filesystem::path& path);
 
-/// Removes what programs that were killed have left of one file, or, with an empty name, of any file in the folder:
-/// NAME.partial-PID, if no process has that number and none, of another machine either, holds the file.
+/// Removes the files NAME.partial-PID that killed programs have left of one file or, with an empty name, of any file in the folder:
+/// those for which no process has that number and none, on another machine either, holds the file's lock.
 void remove_abandoned(const std::filesystem::path& folder, const std::string& name);
 
-/// Throws InputError unless files can be made in this folder, which may have to be made itself, as far as can be checked without
-/// writing.
+/// Throws InputError unless files can be made in this folder, as far as can be checked without writing. The folder need not exist
+/// if it can be made.
 void check_folder(const std::filesystem::path& folder);
 
 }  // namespace lfdsim::detail

@@ -19,7 +19,7 @@ class FirstFailure {
         }
     }
     bool failed() const { return failed_; }
-    /// To be called when all threads are done.
+    /// Throws the exception that was kept, if any. It must be called when all threads have ended.
     void rethrow() const {
         if (error_) std::rethrow_exception(error_);
     }

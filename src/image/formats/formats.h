@@ -1,4 +1,5 @@
-// The functions of each file format that image_file.cpp calls. Internal to src/image. Floor 0.
+// The functions of each file format that image_file.cpp calls. A new format adds its reader or writer here, and its rows in
+// image_file.cpp. Internal to src/image. Floor 0.
 #pragma once
 #include "base/job.h"
 #include "display/display.h"
@@ -13,8 +14,8 @@
 
 namespace lfdsim::detail {
 
-/// Where a reader puts linear light: rows of `columns` pixels of `stride` floats each, the first three R, G, B. Zeroed. Each
-/// finished row is reported to `job`.
+/// The memory in which a reader stores linear light: rows of `columns` pixels of `stride` floats each, the first three R, G, B. It
+/// is zero at first. Each finished row is reported to `job`.
 struct Pixels {
     float* data;
     std::int64_t columns;
@@ -24,31 +25,32 @@ struct Pixels {
     float* row(std::int64_t r) const { return data + r * columns * stride; }
 };
 
-/// Called once by each reader, when it knows the size and has found it plausible.
+/// The function by which a reader gets its memory: called once, when the size is known and InputFile::check_size() has passed it.
 using Allocate = std::function<Pixels(std::int64_t columns, std::int64_t rows)>;
 
-// All throw InputError, which names the file and the fault. EXR, NPY and PFM may return values that are not finite.
+// All readers throw InputError, which names the file and the fault. EXR, NPY and PFM may store values that are not finite.
 void read_png(const InputFile&, Encoding, const Allocate&);
 void read_jpeg(const InputFile&, Encoding, const Allocate&);
 void read_exr(const InputFile&, const Allocate&);
 /// Reads a layer; nothing is allocated if the file has none of this name.
 void read_exr_layer(const InputFile&, const std::string& layer, const Allocate&);
-/// Floats are light, whole numbers of one or two bytes are codes.
+/// Reads an array of shape (rows, columns, 3): floats are light, whole numbers of one or two bytes are codes.
 void read_npy(const InputFile&, Encoding, const Allocate&);
+/// Whether an array has whole numbers. Only the header is read.
 bool npy_holds_codes(const InputFile&);
 void read_pfm(const InputFile&, const Allocate&);
 
-// From the header; the picture is not read. Throw like the readers.
+// These read the header alone, and throw like the readers.
 Metadata read_png_metadata(const InputFile&);
 Metadata read_exr_metadata(const InputFile&);
 int read_jpeg_orientation(const InputFile&);
 
-// All throw std::runtime_error when writing fails, and report each finished row to the job.
+// All writers throw std::runtime_error when writing fails, and report each finished row to the job.
 void write_png(Output&, const Image&, const WriteOptions&, Job&);
 void write_exr(Output&, const Image&, const WriteOptions&, Job&);
 void write_npy(Output&, const Image&, Job&);
 
-/// Codes of one row, three or more a pixel, to light.
+/// Decodes the codes of one row, `channels` a pixel of which the first three are R, G, B, to light.
 template <class Code>
 void decode_row(const Code* codes, const std::vector<float>& table, std::int64_t columns, int stride, float* light,
                 int channels = 3) {
@@ -56,7 +58,7 @@ void decode_row(const Code* codes, const std::vector<float>& table, std::int64_t
         for (int c = 0; c < 3; ++c) light[i * stride + c] = table[codes[i * channels + c]];
 }
 
-/// Refuses a picture whose alpha is not full everywhere, with the first place where it is not.
+/// Refuses a picture whose alpha is not full at a pixel.
 [[noreturn]] inline void refuse_transparency(const InputFile& file, std::int64_t column, std::int64_t row) {
     file.refuse(
         fmt::format("has transparency (an alpha channel that is not full at column {}, row {}), which a panel cannot show; remove "

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 enum class Format { png, exr, npy, pfm, jpeg };
 
+/// Returns the end of a name in lower case: ".png".
 std::string extension(const fs::path& path) {
     std::string text = path.extension().string();
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -63,7 +64,7 @@ Job& stage(Job* caller, const char* name, std::int64_t columns, std::int64_t row
     return *caller;
 }
 
-/// A file that would take more memory than the system gives is one that cannot be read.
+/// Does the work, and refuses the file where memory does not suffice: such a picture counts as bad input.
 template <class Work>
 auto within_memory(const InputFile& file, const Work& work) {
     try {
@@ -75,7 +76,7 @@ auto within_memory(const InputFile& file, const Work& work) {
     }
 }
 
-enum class Values { finite, radiance };
+enum class Values { finite, radiance };  // radiance: finite and not negative, as of a panel
 
 /// Refuses NaN and infinities in a picture, and negative radiance on a panel; the error names the first such value.
 void check_values(const InputFile& file, Values allowed, const Pixels& pixels, std::int64_t rows) {
@@ -103,6 +104,7 @@ void read_floats(const InputFile& file, Values allowed, const Allocate& allocate
     check_values(file, allowed, pixels, height);
 }
 
+/// Reads a file of any format.
 void read(const InputFile& file, Format format, Encoding encoding, Values allowed, const Allocate& allocate) {
     if (format == Format::png) return read_png(file, encoding, allocate);
     if (format == Format::jpeg) return read_jpeg(file, encoding, allocate);
@@ -111,6 +113,7 @@ void read(const InputFile& file, Format format, Encoding encoding, Values allowe
     read_floats(file, allowed, allocate, format == Format::exr ? read_exr : read_pfm);
 }
 
+/// Returns the function that makes `image` a reader's memory. Both file and image must outlive it.
 Allocate as_image(const InputFile& file, Image& image) {
     return [&](std::int64_t columns, std::int64_t rows) {
         check_memory(file, columns, rows, 3);
@@ -119,6 +122,7 @@ Allocate as_image(const InputFile& file, Image& image) {
     };
 }
 
+/// Checks layers that are to be written: throws as write_image() does.
 void check_layers(const fs::path& path, const Image& image, const std::vector<ImageLayer>& layers) {
     if (layers.empty()) return;
     if (!keeps_layers(path))
@@ -150,7 +154,7 @@ void write(Output& to, Format format, const Image& image, const WriteOptions& op
 
 void check_writable(const fs::path& path) {
     format_to_write(path);
-    const OutputFile removed_again(path);  // names too long, /proc: found only by trying
+    const OutputFile removed_again(path);  // names that are too long, or folders such as /proc, are found only by trying
 }
 
 bool keeps_metadata(const fs::path& path) { return format_to_write(path) != Format::npy; }
@@ -196,6 +200,7 @@ std::optional<Image> read_layer(const fs::path& path, const std::string& name) {
     return image;
 }
 
+// A reader asks for memory when it knows the size: the exception leaves it there.
 std::array<std::int64_t, 2> picture_size(const fs::path& path) {
     struct PictureSize {
         std::array<std::int64_t, 2> size;

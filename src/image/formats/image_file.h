@@ -1,4 +1,4 @@
-// Pictures in files: PNG (8 or 16 bit), EXR, NPY, PFM, JPEG in; PNG, EXR, NPY out. Floor 0, public.
+// Pictures in files: PNG (8 or 16 bit), EXR, NPY, PFM and JPEG are read; PNG, EXR and NPY are written. Floor 0, public.
 #pragma once
 #include "base/input_error.h"
 #include "base/job.h"
@@ -33,54 +33,54 @@ struct WriteOptions {
 };
 
 /// Throws InputError unless `path` ends in .png, .exr or .npy and a file can be made there: makes and removes the temporary
-/// file of write_image(). What is at `path` stays as it is.
+/// file of write_image(). A file at `path` stays as it is.
 void check_writable(const std::filesystem::path& path);
 
-/// Whether a file of this name keeps WriteOptions::metadata. Throws InputError like check_writable() for another extension.
+/// Whether a file of this name keeps WriteOptions::metadata. Throws InputError for extensions that check_writable() refuses.
 bool keeps_metadata(const std::filesystem::path& path);
 
-/// Whether a file of this name keeps WriteOptions::layers: true for .exr.
+/// Whether a file of this name keeps WriteOptions::layers, which only .exr does. Throws like keeps_metadata().
 bool keeps_layers(const std::filesystem::path& path);
 
-/// Writes beside, then renames, so that no partial file is ever seen. .png: see WriteOptions; .exr: float32 RGB, linear;
-/// .npy: float32, H x W x 3, linear, C order. Throws InputError (folder missing, layers that the format cannot keep) or
-/// std::runtime_error (disk full).
+/// Writes a picture under a temporary name, then renames it, so that no partial file is ever visible. .png: see WriteOptions; .exr:
+/// float32 RGB, linear; .npy: float32, H x W x 3, linear, C order. Throws InputError (folder missing, layers that the format cannot
+/// keep), std::runtime_error (disk full), or std::invalid_argument for an image or layer of a wrong size.
 /// Large pictures, which take seconds, are a stage of the job, counted in rows; it does not cancel them.
 void write_image(const std::filesystem::path& path, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
-/// Numbers in C order as .npy, float32; written beside, then renamed. Throws like write_image().
+/// Writes an array of numbers in C order as .npy, float32, under a temporary name that is then changed. Throws like write_image().
 void write_npy(const std::filesystem::path& path, std::span<const std::int64_t> shape, std::span<const float> values);
 
-/// The bytes of the file that write_image() would write for a name with this ending (".png", ".exr", ".npy"). Finished rows are
-/// reported to the job, if there is one, without a stage; an exception from its advance() ends the work. Throws like
+/// Returns the bytes of the file that write_image() would write for a name with this ending (".png", ".exr", ".npy"). Finished rows
+/// are reported to the job, if there is one, without a stage; an exception from its advance() ends the work. Throws like
 /// write_image().
 std::string image_bytes(const std::string& ending, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
-/// Linear light. `encoding` is that of code values: PNG, JPEG, and NPY of uint8 and uint16; EXR, PFM and other NPY are linear.
-/// An alpha channel must be full everywhere. Ignores layers. Throws InputError, which names the file and the fault: missing,
-/// truncated, not an image, too large.
+/// Reads a picture as linear light. `encoding` is that of code values: PNG, JPEG, and NPY of uint8 and uint16; EXR, PFM and other
+/// NPY are linear, and their values must be finite. An alpha channel must be full everywhere. Layers are ignored. Throws
+/// InputError, which names the file and the fault: missing, truncated, not an image, too large.
 Image read_image(const std::filesystem::path& path, Encoding encoding);
 
-/// Reads a panel image directly into texels, row by row. Throws InputError, with both sizes, if it is not columns x rows.
-/// A large one is a stage of the job like those of write_image().
+/// Reads a panel image directly into texels, row by row. Throws InputError like read_image(), also for negative light and, with
+/// both sizes, for an image that is not columns x rows. A large one is a stage of the job like those of write_image().
 Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows,
                         Job* = nullptr);
 
-/// The WriteOptions::metadata that a file keeps; empty where its format has no place for it. Only the file's header is read.
-/// Throws like read_image().
+/// Returns the WriteOptions::metadata of a file; empty where its format has no place for it. Only the file's header is read. Throws
+/// like read_image().
 Metadata read_metadata(const std::filesystem::path& path);
 
-/// Whether a file holds code values, which are limited by white; .exr and .npy of floats hold light without a limit. Throws
-/// InputError for an unknown extension.
+/// Whether a file has code values, which are limited by white; .exr, .pfm and .npy of floats have light without a limit. Throws
+/// InputError for an unknown extension, and of .npy for an unreadable header.
 bool holds_codes(const std::filesystem::path& path);
 
-/// How a camera was held, from a JPEG's Exif data (CIPA DC-008, tag Orientation): 1 upright ... 8; 1 where there is no such
-/// tag. read_image() returns the picture as it is stored; viewers turn it. Only the file's header is read. Throws like
+/// Returns how a camera was held, by a JPEG's Exif data (CIPA DC-008, tag Orientation): from 1, upright, to 8; 1 where there is no
+/// such tag. read_image() returns the picture as it is stored; viewers rotate it. Only the file's header is read. Throws like
 /// read_image().
 int read_orientation(const std::filesystem::path& path);
 
-/// A layer of an EXR file, its values finite; nothing where the file has no such layer or is of another format. Throws like
-/// read_image().
+/// Reads a layer of an EXR file, whose values must be finite; returns nothing where the file has no such layer or is of another
+/// format. Throws like read_image().
 std::optional<Image> read_layer(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace lfdsim

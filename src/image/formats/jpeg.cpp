@@ -13,7 +13,8 @@ namespace {
 
 constexpr int max_scans = 100;  // a progressive picture has about ten; thousands are an attack by slowness
 
-/// libjpeg's hooks. They throw in place of longjmp: every x86-64 library carries the tables that unwinding needs.
+/// The functions that libjpeg calls on errors and progress. They throw in place of longjmp: every x86-64 library contains the
+/// tables that unwinding needs.
 struct Hooks {
     jpeg_error_mgr error;
     jpeg_progress_mgr progress;
@@ -59,12 +60,12 @@ struct JpegReader {
     JpegReader& operator=(const JpegReader&) = delete;
 };
 
-/// Tag 0x0112 of an APP1 marker "Exif" (CIPA DC-008: the first directory of a TIFF file); 0: there is none.
+/// Returns tag 0x0112 of an APP1 marker "Exif" (CIPA DC-008: the first directory of a TIFF file); 0 if there is none.
 int exif_orientation(std::span<const unsigned char> marker) {
-    constexpr char name[] = "Exif\0";  // and a zero byte more
+    constexpr char name[] = "Exif\0";  // with the literal's end two zero bytes
     if (marker.size() < sizeof name + 8 || std::memcmp(marker.data(), name, sizeof name) != 0) return 0;
     const std::span<const unsigned char> tiff = marker.subspan(sizeof name);
-    const bool little = tiff[0] == 'I';
+    const bool little = tiff[0] == 'I';  // "II" or "MM": the order of a number's bytes
     const auto number = [&](std::size_t at, std::size_t bytes) {
         std::size_t value = 0;
         for (std::size_t k = 0; k < bytes; ++k) value = value << 8 | tiff[little ? at + bytes - 1 - k : at + k];
@@ -100,7 +101,7 @@ void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocat
     if (jpeg.num_components != 1 && jpeg.num_components != 3)
         file.refuse(fmt::format("has {} colour components; gray or RGB is needed", jpeg.num_components));
     jpeg.out_color_space = JCS_RGB;
-    // Before libjpeg allocates: a progressive picture takes memory for all its coefficients.
+    // allocate() checks the memory before libjpeg takes some: a progressive picture takes memory for all its coefficients.
     const Pixels pixels = allocate(jpeg.image_width, jpeg.image_height);
     jpeg_start_decompress(&jpeg);
 

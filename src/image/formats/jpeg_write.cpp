@@ -13,7 +13,7 @@
 namespace lfdsim {
 namespace {
 
-// Throws in place of longjmp, as in jpeg.cpp.
+// libjpeg's hook throws in place of longjmp, as those of jpeg.cpp do.
 [[noreturn]] void on_error(j_common_ptr common) {
     std::array<char, JMSG_LENGTH_MAX> text;
     common->err->format_message(common, text.data());
@@ -40,11 +40,11 @@ struct JpegWriter {
     JpegWriter& operator=(const JpegWriter&) = delete;
 };
 
-// A picture is compressed in strips of so many rows, eight rows of the blocks of 16 x 16 pixels, by several threads. Between two
-// strips stands a restart marker, after which a decoder, too, begins anew (ITU-T T.81, E.1.4 and F.1.2.1).
+// A picture is compressed in strips, each eight rows of the blocks of 16 x 16 pixels, by several threads. Between two strips is a
+// restart marker, after which a decoder begins anew, too (ITU-T T.81, E.1.4 and F.1.2.1).
 constexpr int strip_rows = 8 * 16;
 
-/// Rows top .. top + rows - 1 as a file of their own.
+/// Returns the rows from `top` to top + rows - 1 as a separate file.
 std::string strip(int width, int top, int rows, const std::vector<std::uint8_t>& codes, int quality) {
     JpegWriter writer;
     jpeg_compress_struct& jpeg = writer.jpeg;
@@ -54,7 +54,7 @@ std::string strip(int width, int top, int rows, const std::vector<std::uint8_t>&
     jpeg.in_color_space = JCS_RGB;
     jpeg_set_defaults(&jpeg);  // 4:2:0
     jpeg_set_quality(&jpeg, quality, TRUE);
-    jpeg.restart_in_rows = strip_rows / 16;
+    jpeg.restart_in_rows = strip_rows / 16;  // stated in the header; no marker falls within a strip
     jpeg_start_compress(&jpeg, TRUE);
     while (jpeg.next_scanline < jpeg.image_height) {
         std::array<JSAMPROW, 16> rows_at_once;
@@ -70,8 +70,8 @@ std::string strip(int width, int top, int rows, const std::vector<std::uint8_t>&
 
 constexpr std::size_t end_marker = 2;  // bytes
 
-/// Where a strip's compressed pixels begin, after the segments of its header, each a marker of two bytes and its length; and where
-/// the header has the number of rows.
+/// The positions in a strip's file where the compressed pixels begin (`end`), after the segments of the header, each a marker of
+/// two bytes and its length, and where the header has the number of rows.
 struct Header {
     std::size_t end = 2, rows = 0;
 
@@ -97,7 +97,9 @@ std::string jpeg_bytes(int width, int height, const std::vector<std::uint8_t>& c
         strips[k] = strip(width, top, std::min(strip_rows, height - top), codes, quality);
     });
     std::string all = std::move(strips[0]);
-    const Header header(all);  // that of the others has as many bytes
+    // The first strip's header, with the height of the whole picture, then the pixels of all strips, with restart markers 0 to 7 in
+    // turn.
+    const Header header(all);  // the headers of all strips have the same number of bytes
     all[header.rows] = char(height / 256);
     all[header.rows + 1] = char(height % 256);
     for (std::size_t k = 1; k < strips.size(); ++k) {

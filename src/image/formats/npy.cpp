@@ -1,4 +1,4 @@
-// NumPy's format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
+// NumPy's format, read and written: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 #include "image/formats/encoding.h"
 #include "image/formats/file.h"
 #include "image/formats/formats.h"
@@ -18,7 +18,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 constexpr std::string_view magic = "\x93NUMPY";
 
-/// The text of the header, a Python dictionary.
+/// Reads the header, and returns its text, a Python dictionary.
 std::string read_header(const InputFile& file) {
     unsigned char start[12] = {};
     if (std::fread(start, 1, 10, file.stream()) != 10 || std::string_view(reinterpret_cast<char*>(start), magic.size()) != magic)
@@ -28,14 +28,14 @@ std::string read_header(const InputFile& file) {
         if (std::fread(start + 10, 1, 2, file.stream()) != 2) file.refuse("is damaged: it ends too early");
         length |= std::size_t(start[10]) << 16 | std::size_t(start[11]) << 24;
     }
-    constexpr std::size_t most = 1024;  // NumPy writes 118; the pattern's matching takes some hundred bytes of stack for each
+    constexpr std::size_t most = 1024;  // NumPy writes 118; std::regex takes some hundred bytes of stack for each byte
     if (length > most) file.refuse("is damaged: its header is too long for an image");
     std::string header(length, '\0');
     if (std::fread(header.data(), 1, length, file.stream()) != length) file.refuse("is damaged: it ends too early");
     return header;
 }
 
-/// Reads rows of three values; `put` takes a row to where it belongs.
+/// Reads rows of three values a pixel; put(values, light) converts a row.
 template <class Value, class Put>
 void read_rows(const InputFile& file, std::int64_t rows, const Pixels& pixels, const Put& put) {
     std::vector<Value> row(std::size_t(pixels.columns) * 3);
@@ -62,7 +62,7 @@ void read_codes(const InputFile& file, std::int64_t rows, Encoding encoding, con
                     [&](const Code* row, float* to) { decode_row(row, table, pixels.columns, pixels.stride, to); });
 }
 
-/// The type of the values, as NumPy writes it: "f4", "f8", "u1", "u2"; empty for all others.
+/// Returns the type of the values, as NumPy writes it: "f4", "f8", "u1", "u2"; empty for all others.
 std::string type_of(const std::string& header) {
     const std::regex key("'descr': *'(?:<(f4|f8|u2)|[|<](u1))'");
     std::smatch type;
@@ -73,9 +73,10 @@ std::string type_of(const std::string& header) {
 }  // namespace
 
 void read_npy(const InputFile& file, Encoding encoding, const Allocate& allocate) {
+    // Type, order and shape, and that the file has exactly the bytes for them.
     const std::string header = read_header(file), type = type_of(header);
     std::smatch order, shape;
-    // Nine digits at most: no overflow, and 2^31 pixels have fewer.
+    // A size has nine digits at most, so that no number overflows.
     const std::regex order_key("'fortran_order': *False"), shape_key("'shape': *\\( *(\\d{1,9}) *, *(\\d{1,9}) *, *3 *,? *\\)");
     if (type.empty() || !std::regex_search(header, order, order_key) || !std::regex_search(header, shape, shape_key))
         file.refuse(

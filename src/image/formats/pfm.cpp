@@ -16,7 +16,7 @@ namespace {
 
 constexpr int longest_word = 32;
 
-/// The next word of the header, and the one white-space character behind it.
+/// Reads the next word of the header, and the one white-space character after it.
 std::string header_word(const InputFile& file) {
     std::string word;
     for (;;) {

@@ -1,4 +1,4 @@
-// How large a picture is. Floor 0.
+// The size of a picture in a file, without its pixels. Floor 0.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace lfdsim {
 
-/// Columns and rows. Only the file's header is read. Throws like read_image().
+/// Returns columns and rows. Only the file's header is read. Throws like read_image().
 std::array<std::int64_t, 2> picture_size(const std::filesystem::path&);
 
 }  // namespace lfdsim

@@ -33,7 +33,7 @@ void check_signature(const InputFile& file) {
         file.refuse("is not a PNG file, whatever its name says");
 }
 
-/// libpng takes memory for what a chunk claims to hold before it reads that.
+/// Refuses chunks that claim more bytes than the file has: libpng allocates what a chunk claims before it reads it.
 void check_chunks(const InputFile& file) {
     constexpr std::int64_t first = 8, sum_bytes = 4;  // the signature; after each chunk
     for (std::int64_t at = first; at < file.size();) {
@@ -66,23 +66,23 @@ struct PngReader {
     PngReader& operator=(const PngReader&) = delete;
 };
 
-/// Rows first .. first + rows - 1; `Code` is the type of a sample.
+/// The codes of the rows from `first` to first + rows - 1; `Code` is the type of a sample.
 template <class Code>
 struct Band {
     std::int64_t first, rows;
     std::vector<Code> codes;
 };
 
-/// One thread inflates, others turn codes into light, which takes as long again, mostly for the first touch of the memory.
-/// Returns the number of the first pixel whose alpha is not full, or -1.
+/// Reads all rows in bands. One thread inflates; others convert codes to light, which takes as long again, mostly for the first
+/// touch of the memory. Returns the index, row by row, of the first pixel whose alpha is not full, or -1.
 template <class Code>
 std::int64_t read_rows(const PngReader& reader, int passes, std::int64_t rows, const std::vector<float>& table,
                        const Pixels& pixels) {
-    constexpr std::int64_t band_codes = 1 << 18;  // fits into a core's own cache
+    constexpr std::int64_t band_codes = 1 << 18;  // codes of a band, which fit into the cache of one core
     constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
     const int channels = png_get_channels(reader.png, reader.info);  // 3, or 4 with alpha
     const std::int64_t row_codes = pixels.columns * channels;
-    std::atomic<std::int64_t> clear{none};
+    std::atomic<std::int64_t> clear{none};  // the least index so far of a pixel whose alpha is not full
     const auto check_alpha = [&](const Code* codes, std::int64_t row) {
         for (std::int64_t i = 0; i < pixels.columns; ++i)
             if (codes[i * channels + 3] != std::numeric_limits<Code>::max()) {
@@ -92,7 +92,7 @@ std::int64_t read_rows(const PngReader& reader, int passes, std::int64_t rows, c
                 return;
             }
     };
-    // Interlaced pictures come in passes, each of which touches every row: all codes must be kept until the last.
+    // Interlaced pictures are read in passes, each of which touches every row: all codes must be kept until the last pass.
     const std::int64_t most_rows = passes > 1 ? rows : std::max<std::int64_t>(1, band_codes / row_codes);
     std::int64_t next = 0;
     FirstFailure failure;
@@ -129,7 +129,7 @@ Metadata read_png_metadata(const InputFile& file) {
     check_signature(file);
     check_chunks(file);
     const PngReader reader(file);
-    // What deflate unpacks is taken as memory: so many texts, each so long, are more than any picture of ours has.
+    // Texts are unpacked into memory: 64 of 4 MiB each are more than any picture of this program has.
     png_set_chunk_cache_max(reader.png, 64);
     png_set_chunk_malloc_max(reader.png, std::size_t(1) << 22);
     png_read_info(reader.png, reader.info);
@@ -148,6 +148,7 @@ void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate
     png_set_chunk_cache_max(reader.png, 1);                             // texts are not used: 1 collects none
     png_read_info(reader.png, reader.info);
 
+    // The size is checked before anything is allocated.
     const std::int64_t columns = png_get_image_width(reader.png, reader.info);
     const std::int64_t rows = png_get_image_height(reader.png, reader.info);
     const int depth = png_get_bit_depth(reader.png, reader.info);

@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int strip_rows = 64;  // a strip is compressed on its own; larger than deflate's 32 KiB window, so little is lost
+constexpr int strip_rows = 64;  // strips are compressed separately; larger than deflate's 32 KiB window, so little is lost
 
 [[noreturn]] void on_write_error(png_structp, png_const_charp message) {
     throw std::runtime_error(fmt::format("PNG: {}", message));
@@ -43,6 +43,7 @@ struct PngWriter {
     PngWriter& operator=(const PngWriter&) = delete;
 };
 
+/// Writes everything before the pixels: size, encoding and texts.
 void write_header(const PngWriter& writer, const Image& image, const WriteOptions& options) {
     png_set_IHDR(writer.png, writer.info, png_uint_32(image.width), png_uint_32(image.height), options.bits, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -62,7 +63,7 @@ void write_header(const PngWriter& writer, const Image& image, const WriteOption
     png_write_info(writer.png, writer.info);
 }
 
-/// The code values of one row in PNG's byte order: 16-bit ones big-endian.
+/// Encodes one row as code values in PNG's byte order: 16-bit ones big-endian. `codes` has the row's size.
 void encode_row(const float* light, const WriteOptions& options, Bytes& codes) {
     if (options.bits == 8) {
         const Encoder8& encoder = Encoder8::of(options.encoding);
@@ -84,8 +85,8 @@ struct DeflatedStrip {
     std::size_t bytes;
 };
 
-/// Rows begin .. end-1 with the filter Up: of all filters, measured on elemental images and views, the quickest and, with the
-/// quickest compression, as small as any.
+/// Returns the codes of the rows from `begin` to end - 1 after the filter Up: of all filters, measured on elemental images and
+/// views, the quickest and, with the quickest compression, as small as any.
 Bytes filter_up(const Image& image, const WriteOptions& options, int begin, int end) {
     const std::size_t row_bytes = std::size_t(image.width) * 3 * std::size_t(options.bits / 8);
     Bytes above(row_bytes), row(row_bytes), filtered;
@@ -100,7 +101,7 @@ Bytes filter_up(const Image& image, const WriteOptions& options, int begin, int 
     return filtered;
 }
 
-/// A part of a deflate stream that ends at a byte, so that parts join by concatenation.
+/// Returns a strip as a part of a deflate stream that ends at a byte, so that parts join by concatenation.
 DeflatedStrip compress(const Bytes& filtered, int begin, bool last) {
     z_stream stream{};
     if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -129,6 +130,8 @@ void write_png(Output& file, const Image& image, const WriteOptions& options, Jo
     const PngWriter writer(file);
     write_header(writer, image, options);
 
+    // A pipeline: strips in order, compressed by all threads, and written in order. The check sum of all rows is combined from
+    // those of the strips.
     static constexpr png_byte idat[] = "IDAT", iend[] = "IEND";
     int next = 0;
     uLong adler = 1;
@@ -155,7 +158,7 @@ void write_png(Output& file, const Image& image, const WriteOptions& options, Jo
         png_write_chunk(writer.png, idat, strip.deflated.data(), strip.deflated.size());
         job.advance(std::min(strip_rows, image.height - strip.begin));
     };
-    // Few strips are in memory at a time, whatever the picture's size.
+    // Only twice as many strips as threads are in memory at a time, whatever the picture's size.
     tbb::parallel_pipeline(std::size_t(2 * tbb::this_task_arena::max_concurrency()),
                            tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, begin_strip) &
                                tbb::make_filter<int, DeflatedStrip>(tbb::filter_mode::parallel, compress_strip) &
