@@ -14,7 +14,7 @@ namespace {
 
 using Corners = ApertureShape::Corners;  // mm from a lens's axis, in the array's frame
 
-/// `length_mm`: of strips, as far as they are drawn.
+/// Returns the corners of a cell; of strips over the length that is drawn.
 Corners cell_of(const Lattice<double>& l, double length_mm) {
     using ApertureForm = ApertureShape::ApertureForm;
     const ApertureForm form = l.hexagonal ? ApertureForm::hexagon : l.strips ? ApertureForm::slit : ApertureForm::rectangle;
@@ -29,7 +29,7 @@ void draw_front(SvgDrawing& drawing, Point corner, double side, const Display& d
     const optics::Cell<double> middle = optics::base_cell(l, {std::floor(l.count[0] / 2), std::floor(l.count[1] / 2)});
     const optics::Vec2<double> centre = optics::axis_in_array(l, middle);
     const Corners cell = cell_of(l, 2 * across), clear = aperture_shape(d, g).corners(2 * across);
-    // As many about the middle as reach into the square, however it is turned
+    // Enough lenses about the middle to fill the square at any rotation.
     const auto about = [&](int axis) { return std::ceil(across / l.pitch[axis]) + 1; };
     drawing.add(fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\" viewBox=\"0 0 {2} {2}\" overflow=\"hidden\">\n",
                             px(corner[0]), px(corner[1]), px(side)));

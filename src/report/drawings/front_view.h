@@ -1,4 +1,4 @@
-// A few lenses as the viewer sees them: their cells and what of them is clear. Floor 4.
+// A few lenses as the viewer sees them: their cells and clear apertures. Floor 4.
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
@@ -6,8 +6,8 @@
 
 namespace lfdsim {
 
-/// The lens in the middle of the array and those about it, turned as they are, in a square with this upper left corner; its side in
-/// pixels. The cells' borders are lines, clear apertures filled; the middle lens stands out.
+/// Draws the lens in the middle of the array and those about it, with the array's rotation, in a square with this upper left corner
+/// and side, pixels. Cells are outlined, clear apertures filled; the middle lens is emphasised.
 void draw_front(SvgDrawing&, Point corner, double side, const Display&, const Geometry&);
 
 }  // namespace lfdsim

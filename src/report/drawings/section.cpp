@@ -9,11 +9,11 @@
 namespace lfdsim {
 namespace {
 
-/// The lens cut at the borders of its cell on either side, half a pitch from the axis.
+/// Returns the lens cut at the borders of its cell on either side, half a pitch from the axis.
 LensKind cut(LensKind kind, double half_mm, double glass_radius_mm) {
     if (auto* ball = std::get_if<PlanoConvex>(&kind)) {
         const double R = ball->sphere_radius_mm, r = std::min(glass_radius_mm, half_mm);
-        // The cap ends higher: the wall goes on up to there.
+        // A narrower cap ends higher, and the wall below it reaches up to its rim.
         ball->cylinder_height_mm += sag_mm(1 / R, 0, {}, glass_radius_mm) - sag_mm(1 / R, 0, {}, r);
         ball->aperture_radius_mm = r;
     }
@@ -31,6 +31,7 @@ Subject section_of(const Subject& s) {
     Display d = s.display();
     if (!shows_a_row(d)) return {std::move(d), {}, s.options()};
     const Geometry& g = s.geometry();
+    // The row's direction x' becomes the y of the new display, which has one column of lenses.
     const auto along = [&](double x, double y) { return optics::to_array(g.lattice, x, y).x; };
     d.lens.kind = cut(d.lens.kind, g.lattice.pitch[0] / 2, g.glass_radius_mm);
     d.array = LensArray{};

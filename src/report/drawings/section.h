@@ -1,13 +1,15 @@
-// The plane in which side views show a display. Floor 4.
+// The plane in which side views show a display, and the display that has this section. Floor 4.
 #pragma once
 #include "analysis/core/subject.h"
 
 namespace lfdsim {
 
-/// Side views show a column of lenses, upright, from the side. Rows of hexagons and bricks are what their lenses stand in without
-/// gaps, and strips have a section along their row alone: of those the display is turned by a quarter, so that the view shows a
-/// row, and each lens is the one of revolution that has the same section. Other displays stay as they are.
+/// Whether side views show a row of lenses in place of a column. Hexagons and bricks touch along rows only, and strips have a
+/// section along their row only.
 bool shows_a_row(const Display&);
+/// Returns the display whose column of lenses, in the plane x = 0, side views draw. Where they show a row, the display is rotated
+/// by a quarter turn, and each lens is the one of revolution that has the same section, cut at its cell's borders. Others are
+/// unchanged.
 Subject section_of(const Subject&);
 
 }  // namespace lfdsim

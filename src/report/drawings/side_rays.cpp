@@ -14,7 +14,7 @@ namespace {
 /// The rules of pass_lens() for a ray that is drawn: records the points of its path.
 struct Pen : optics::SingleLens<double> {
     SidePath& path;
-    const double sense;  // of z: -1 for the lens turned over
+    const double sense;  // sign of z: -1 for the reversed lens, through which upward rays are traced
 
     void point(double y, double z) { path.points.push_back({y, sense * z}); }
     bool passes_stop(bool crosses, double x, double y) {
@@ -44,7 +44,8 @@ struct Pen : optics::SingleLens<double> {
     bool over(bool alive) const { return !alive; }
 };
 
-/// On from where a ray has left the lens, going down, through the layers; in the lowest one afterwards.
+/// Continues a ray that has left the lens downwards through the layers; afterwards it is in the lowest one. At each face n1 dy1 =
+/// n2 dy2; |dy2| >= 1 is total reflection.
 void down_through_layers(const Geometry& g, SidePath& path) {
     SideRay& ray = path.last;
     if (g.layers.empty() || !path.through) return;
@@ -61,7 +62,8 @@ void down_through_layers(const Geometry& g, SidePath& path) {
     }
 }
 
-/// Up through the layers, for a ray whose direction is that in air; in what lies on them afterwards.
+/// Returns a ray from the panel after its way up through the layers, in the medium above them. Its direction is given as that in
+/// air, n dy being the same in all layers.
 SideRay up_through_layers(const Geometry& g, SideRay ray, SidePath& path) {
     const double sine = ray.dy;
     for (const PlacedLayer& layer : g.layers) {
@@ -88,6 +90,7 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) 
     SidePath path{{{from.y, from.z}}, from, true};
     const SideRay start = up ? up_through_layers(g, from, path) : from;
     const auto go_on = [&](double y, double z, double dy, double dz) { path.last = {y, sense * z, dy, sense * dz}; };
+    // A lens in one plane changes the slope there.
     if (scene.ideal) {
         const double y = start.y_at(g.vertex_plane_mm);
         const double slope = optics::bend<double>(scene, {0, y}, {0, sense * start.dy / start.dz}).y, length = std::hypot(slope, 1);
@@ -97,6 +100,7 @@ SidePath through_lens(const Display& d, const Geometry& g, const SideRay& from) 
         if (!up) down_through_layers(g, path);
         return path;
     }
+    // Other lenses: from the vertex plane of the first surface on the ray's way, upwards through the reversed lens.
     const auto& first = scene.surface[0];
     const optics::Ray<double> ray{{0, start.y_at(sense * first.z), 0}, {0, start.dy, sense * start.dz}};
     optics::Passage<double> passage{ray, {0, 0}, 1, true};

@@ -1,4 +1,4 @@
-// What the two side views have in common: lengths to pixels, and their colours. Floor 4.
+// The parts that the two side views share: the scale from lengths to pixels, styles, and rays through the array. Floor 4.
 #pragma once
 #include "analysis/core/subject.h"
 #include "optics/lattice.h"
@@ -19,32 +19,33 @@ inline constexpr const char* diffuser_style = "stroke=\"#a8943a\" stroke-width=\
 inline constexpr const char* glass_style = "stroke=\"#3080a0\" fill=\"#3080a0\" fill-opacity=\"0.2\"";
 inline constexpr const char* black_style = "stroke=\"currentColor\" fill=\"currentColor\"";
 
-/// "-12.3 mm", with a true minus sign.
+/// Returns a length in words, "-12.3 mm", with a true minus sign.
 inline std::string mm(double x) { return fmt::format("{}{:.4g} mm", x < 0 ? "\u2212" : "", std::abs(x)); }
 
-/// Millimetres to pixels: z to the right, y up.
+/// The map of millimetres to pixels: z to the right, y up.
 struct SideScale {
-    double left, middle;          // pixels: of z = z0, and of y = y0
-    double z0, y0, per_z, per_y;  // mm; pixels a mm
+    double left, middle;          // pixels: x of z = z0, and y of y = y0
+    double z0, y0, per_z, per_y;  // mm; pixels per mm
 
     Point at(double y, double z) const { return {left + per_z * (z - z0), middle - per_y * (y - y0)}; }
     bool true_to_scale() const { return per_z == per_y; }
 };
 
-/// A lens: its row, and the height of its axis. lens_near() finds the one whose axis is nearest to y.
+/// A lens of the column that is drawn.
 struct SideLens {
     std::int64_t row;  // 0 at the bottom
-    double y_mm;
+    double y_mm;       // of its axis, in the display's frame
 };
 inline SideLens lens_at(const Lattice<double>& lattice, std::int64_t row) {
     return {row, lattice.offset[1] + optics::axis_in_array(lattice, optics::Cell<double>{0, double(row)}).y};
 }
+/// Returns the lens in whose cell a height y is, or the outermost one beside the array.
 inline SideLens lens_near(const Lattice<double>& lattice, double y) {
     const double row = optics::lens_at(lattice, 0., y - lattice.offset[1]).j;
     return lens_at(lattice, std::int64_t(std::clamp(row, 0., lattice.count[1] - 1)));
 }
 
-/// The path through the lens in whose cell the ray reaches the lenses. Points in the display's frame.
+/// Returns the path through the lens in whose cell the ray reaches the lenses; points are in the display's frame.
 inline SidePath through_array(const Display& d, const Geometry& g, SideRay ray) {
     const double y = lens_near(g.lattice, ray.y_at(ray.dz > 0 ? g.base_z_mm : g.vertex_plane_mm)).y_mm;
     ray.y -= y;
@@ -54,7 +55,7 @@ inline SidePath through_array(const Display& d, const Geometry& g, SideRay ray) 
     return path;
 }
 
-/// Draws a path and, if its ray came through, the ray on to to_z.
+/// Draws a path and, if its ray passed the lens, the ray up to the height to_z; a ray that ended is drawn faintly.
 inline void draw_path(SvgDrawing& drawing, const SideScale& scale, const SidePath& path, double to_z, std::string style) {
     std::vector<Point> points;
     for (const auto& [y, z] : path.points) points.push_back(scale.at(y, z));
@@ -63,10 +64,11 @@ inline void draw_path(SvgDrawing& drawing, const SideScale& scale, const SidePat
     drawing.path(points, style);
 }
 
-/// The eye's ray from a point of the diffuser at height y, turned by `turn` radians towards +y.
+/// Returns the ray that comes from the eye, at a point (y, z) of the diffuser that turns it by `turn` radians.
 inline SideRay scattered(const Display& d, double y, double z, double turn) {
     const Vec3d& eye = d.camera.position_mm;
-    const double most = 1.55, angle = std::clamp(std::atan2(eye[1] - y, eye[2] - z) + turn, -most, most);  // still downwards
+    // The angle from the normal is kept below a right angle, so that the ray goes downwards.
+    const double most = 1.55, angle = std::clamp(std::atan2(eye[1] - y, eye[2] - z) + turn, -most, most);
     return {y, z, -std::sin(angle), -std::cos(angle)};
 }
 

@@ -9,16 +9,16 @@
 namespace lfdsim {
 namespace {
 
-constexpr double width = 960, side = 72, drawn = width - 2 * side;
-constexpr double least_height = 48, most_height = 400;
+constexpr double width = 960, side = 72, drawn = width - 2 * side;  // pixels: the drawing, its margins, the part for z
+constexpr double least_height = 48, most_height = 400;              // pixels, for y
 
-/// Half the height of a turned rectangle where x = 0 cuts it.
+/// Returns half the height of the array's rotated rectangle in the plane x = 0, mm.
 double half_height(const Geometry& g) {
     const double c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
     return std::min(s > 0 ? 0.5 * g.array_width_mm / s : INFINITY, c > 0 ? 0.5 * g.array_height_mm / c : INFINITY);
 }
 
-/// Heights of the depth planes that are near enough to be drawn; NaN for others.
+/// The heights of the depth planes that are near enough to be drawn; NaN for others.
 struct DrawnPlanes {
     double central = NAN;
     std::array<double, 2> marginal{NAN, NAN};
@@ -33,6 +33,7 @@ struct DrawnPlanes {
     }
 };
 
+/// Returns the scale at which everything from the first plane to the last fits, and its height `high` in pixels.
 SideScale scale_for(const Subject& s, const DrawnPlanes& planes, double top, double& high) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
@@ -50,6 +51,7 @@ SideScale scale_for(const Subject& s, const DrawnPlanes& planes, double top, dou
     return {side + 0.5 * (drawn - per_z * (last - first)), top + 0.5 * high, first, 0.5 * (up + down), per_z, per_y};
 }
 
+/// Draws rays from the eye to three lenses, or through three points of the diffuser and its extreme angles.
 void draw_backward(SvgDrawing& drawing, const SideScale& scale, const Subject& s) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
@@ -69,8 +71,8 @@ void draw_backward(SvgDrawing& drawing, const SideScale& scale, const Subject& s
     }
 }
 
-/// The light of the pixel behind the middle lens, up to its image; where that is not real, some way forward and, dashed, back to
-/// where the light seems to come from.
+/// Draws the light of the point of the panel behind the middle lens, up to its image; where that is not real, some way forward and,
+/// dashed, back to the virtual image.
 void draw_pixel(SvgDrawing& drawing, const SideScale& scale, const Subject& s, const DrawnPlanes& planes) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
@@ -86,7 +88,7 @@ void draw_pixel(SvgDrawing& drawing, const SideScale& scale, const Subject& s, c
     }
 }
 
-/// Names above the planes; planes that coincide share one.
+/// The names above the planes; planes less than two pixels apart share one.
 struct Labels {
     std::vector<double> lines;
     std::vector<std::string> texts;
@@ -104,6 +106,7 @@ struct Labels {
 }  // namespace
 
 std::string side_view_svg(const Subject& display, SideFrame* frame) {
+    // The planes that have names.
     const Subject s = section_of(display);
     const Display& d = s.display();
     const Geometry& g = s.geometry();
@@ -116,6 +119,7 @@ std::string side_view_svg(const Subject& display, SideFrame* frame) {
         if (std::isfinite(z)) named.emplace_back(z, "marginal plane");
     std::stable_sort(named.begin(), named.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
 
+    // The layout: names in rows above the drawing, as many as needed so that none overlap.
     double high = 0;
     SideScale scale = scale_for(s, planes, 0, high);
     Labels labels;
@@ -130,6 +134,7 @@ std::string side_view_svg(const Subject& display, SideFrame* frame) {
         *frame = {scale.y0 - half_y, scale.y0 + half_y, scale.z0, scale.z0 + wide / scale.per_z, scale.left, top, wide, high};
     }
 
+    // Dimensions below the drawing: L, the diffuser's distance, the eye's.
     std::vector<std::tuple<double, double, std::string>> lengths;
     if (std::isfinite(planes.central))
         lengths.emplace_back(g.rear_principal_mm, planes.central, "L = " + mm(s.theory().central_depth_mm));
@@ -150,6 +155,7 @@ std::string side_view_svg(const Subject& display, SideFrame* frame) {
                  {scale.at(0, std::max(eye[2], g.top_z_mm))[0] + 12, scale.at(0, 0)[1]},
                  "stroke-opacity=\"0.5\" stroke-dasharray=\"10 3 2 3\"");
 
+    // Planes and rays, and over them lenses, panel and eye.
     const double offset = g.lattice.offset[1], half = half_height(g);
     if (std::isfinite(planes.central)) upright(planes.central, offset - half, offset + half, plane_style);
     for (const double z : planes.marginal)
@@ -164,6 +170,7 @@ std::string side_view_svg(const Subject& display, SideFrame* frame) {
     drawing.path(std::array<Point, 3>{{at_eye, {at_eye[0] + 22, at_eye[1] - 10}, {at_eye[0] + 22, at_eye[1] + 10}}},
                  "stroke-width=\"1.3\"", true);
 
+    // Dimensions: the panel's height at the left, the lengths below.
     const double low = scale.at(-0.5 * g.panel_height_mm, 0)[1], up = scale.at(0.5 * g.panel_height_mm, 0)[1];
     const double x = scale.at(0, scale.z0)[0] - 22, y = 0.5 * (low + up);
     drawing.dimension({x, low}, {x, up}, "");

@@ -6,19 +6,20 @@
 
 #include <fmt/format.h>
 
-// The close-up. Rays end at the picture's edge, which a nested <svg> cuts off.
+// The drawing of a few lenses. Rays end at the picture's edge, where a nested <svg> clips them.
 namespace lfdsim {
 namespace {
 
 constexpr double lens_page_width = 960, left = 76, top = 16, notes_width = 236, lens_drawn = lens_page_width - left - notes_width,
                  lens_most_height = 440, front_side = 130;
 
+/// Returns the z of a surface at a distance from the axis, mm.
 double rim_z(const PlacedSurface& f, double rim) { return f.z_mm + sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, rim); }
 
-/// The part of the display that is drawn: lenses first .. last, z from .. to.
+/// The part of the display that is drawn.
 struct DrawnWindow {
-    std::int64_t first, last;
-    double from, to, low, high;  // mm
+    std::int64_t first, last;    // rows of lenses, both included
+    double from, to, low, high;  // mm: least and greatest z, least and greatest y
 };
 
 DrawnWindow window_of(const Display& d, const Geometry& g) {
@@ -29,17 +30,18 @@ DrawnWindow window_of(const Display& d, const Geometry& g) {
     w.low = lens_at(g.lattice, w.first).y_mm - 0.6 * p;
     w.high = lens_at(g.lattice, w.last).y_mm + 0.6 * p;
     w.from = std::min(0., g.base_z_mm) - 0.05 * depth;
-    // As far in front of the lenses as the picture has room for at the scale that its height allows.
+    // In front of the lenses the drawing extends as far as its width allows, at the scale that its height allows.
     const double scale = std::min(lens_most_height / (w.high - w.low), lens_drawn / (depth + std::max(1.2 * p, 0.5 * depth)));
     w.to = w.from + lens_drawn / scale;
     return w;
 }
 
-/// Half the height of a lens in the plane of its axis.
+/// Returns half the height of a surface in the plane of its axis, mm.
 double rim_of(const Display& d, const PlacedSurface& f) {
     return d.array.aperture == Aperture::cell ? 0.5 * d.array.pitch_mm[1] : f.semi_aperture_mm;
 }
 
+/// Adds a surface's section to an outline, from its lower end upwards or from its upper end downwards.
 void add_surface(std::vector<Point>& outline, const SideScale& scale, const Display& d, const PlacedSurface& f, double y, bool up) {
     constexpr int steps = 48;
     for (int k = 0; k <= steps; ++k) {
@@ -48,6 +50,7 @@ void add_surface(std::vector<Point>& outline, const SideScale& scale, const Disp
     }
 }
 
+/// Draws a lens whose axis is at y: glass between surfaces, or the plane of a thin lens; and its stop.
 void draw_lens(SvgDrawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y) {
     if (g.surfaces.front().form == SurfaceForm::thin) {
         const double half = 0.5 * g.clear_aperture_mm[1];
@@ -71,10 +74,12 @@ void draw_lens(SvgDrawing& drawing, const SideScale& scale, const Display& d, co
                      scale.at(y + sense * 0.5 * d.array.pitch_mm[1], g.stop_z_mm), "stroke-width=\"3\"");
 }
 
-/// Draws what is between two lenses, y the border of their cells: black walls, or the glass of a plate.
+/// Draws the surround at y, the border of two cells: black walls, or the glass of a plate. `upper` and `lower`: whether there is a
+/// lens on that side.
 void draw_between(SvgDrawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y, bool upper,
                   bool lower) {
     const double half = 0.5 * d.array.pitch_mm[1];
+    // From the lowest rim to the highest.
     double rim = g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
     if (d.array.aperture == Aperture::cell) rim = half;
     for (const PlacedSurface& f : g.surfaces) {
@@ -94,7 +99,8 @@ void draw_rays(SvgDrawing& drawing, const SideScale& scale, const Subject& s, co
     const Geometry& g = s.geometry();
     const SideLens middle = lens_near(g.lattice, 0), lower = lens_at(g.lattice, w.first), upper = lens_at(g.lattice, w.last);
     const Vec3d& eye = d.camera.position_mm;
-    // The theoretical field of view, at the upper lens: lines from its elemental image's edges through its principal points.
+    // The theoretical field of view at the upper lens, 2 atan(p / 2g): lines from half a pitch on the panel through its principal
+    // points.
     for (const double sense : {-1., 1.}) {
         const double edge = upper.y_mm + sense * 0.5 * d.array.pitch_mm[1];
         const double far = upper.y_mm - sense * 0.5 * d.array.pitch_mm[1] / g.gap_mm * (w.to - g.rear_principal_mm);
@@ -116,7 +122,8 @@ void draw_rays(SvgDrawing& drawing, const SideScale& scale, const Subject& s, co
                 through_array(d, g, side_ray(eye[1], eye[2], lower.y_mm + share * 0.5 * g.clear_aperture_mm[1], g.vertex_plane_mm)),
                 0, backward_style);
     }
-    // The pixel nearest to a fifth of a pitch above the middle lens's axis
+    // The light of one pixel, the nearest to a fifth of a pitch above the middle lens's axis; pixel centres are at whole or half
+    // pitches.
     const double a = d.panel.pixel_pitch_mm, phase = d.panel.pixels[1] % 2 ? 0 : 0.5;
     const double y = a * (std::round((middle.y_mm + 0.2 * d.array.pitch_mm[1]) / a - phase) + phase);
     for (int k = -3; k <= 3; ++k) {
@@ -128,6 +135,7 @@ void draw_rays(SvgDrawing& drawing, const SideScale& scale, const Subject& s, co
     }
 }
 
+/// Returns the legend's lines on sizes and theory.
 std::vector<std::string> notes_of(const Subject& s) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();
@@ -151,6 +159,7 @@ std::vector<std::string> notes_of(const Subject& s) {
 }  // namespace
 
 std::string lens_view_svg(const Subject& display, SideFrame* frame) {
+    // The layout.
     const Subject s = section_of(display);
     const Display& d = s.display();
     const Geometry& g = s.geometry();
@@ -161,10 +170,11 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
     if (frame) *frame = {w.low, w.high, w.from, w.to, left, top, lens_drawn, high};
     std::vector<std::string> notes = notes_of(s);
     if (shows_a_row(display.display())) notes.push_back("section along a row of the array");
-    // Below the notes and the rays' names, the lenses from the front
+    // The lenses from the front are below the notes and the names of the rays.
     const double front_top = top + 16 + 21. * (double(notes.size()) + 2) + (scale.true_to_scale() ? 0 : 21) + 26;
     SvgDrawing drawing(lens_page_width, std::max(top + high + 60, front_top + front_side + 10),
                        "Lenses of the display from the side, with their rays");
+    // The clipped part: lenses, surround, layers, rays, diffuser, and the panel with marks between its pixels.
     drawing.add(fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"0 0 {2} {3}\" overflow=\"hidden\">\n",
                             px(left), px(top), px(lens_drawn), px(high)));
     for (std::int64_t row = w.first; row <= w.last; ++row) draw_lens(drawing, scale, d, g, lens_at(g.lattice, row).y_mm);
@@ -190,6 +200,7 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
     }
     drawing.add("</svg>\n");
 
+    // Dimensions outside of it: the pitch at the left, the gap below, the aperture in front of the upper lens.
     const auto at = [&](double y, double z) {
         const auto [x, at_y] = scale.at(y, z);
         return Point{left + x, top + at_y};
@@ -215,6 +226,7 @@ std::string lens_view_svg(const Subject& display, SideFrame* frame) {
     for (const double y : {upper - half, upper + half})
         drawing.line(at(y, g.stop_z_mm), {at(y, beside)[0] + 6, at(y, beside)[1]}, "stroke-opacity=\"0.5\"");
     drawing.dimension(at(upper - half, beside), at(upper + half, beside), "D = " + mm(g.clear_aperture_mm[1]));
+    // The legend, and the lenses from the front.
     double row = top + 16;
     for (const std::string& line : notes) {
         drawing.text({lens_page_width - notes_width + 18, row}, line, "font-size=\"12\"");

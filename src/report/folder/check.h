@@ -1,4 +1,4 @@
-// What follows from a description: for scripts, and what is worth knowing of it. Floor 4.
+// The results of `lfdsim check`: all that follows from a description, for scripts, and the warnings about it. Floor 4.
 #pragma once
 #include "analysis/core/result.h"
 #include "display/display.h"
@@ -10,7 +10,8 @@
 
 namespace lfdsim {
 
-/// The faults of a display, the worst first: verdicts by tracing (analysis/core/verdicts.h), then advice (checks/advice.h).
+/// Returns sentences on the faults of a display: verdicts by tracing (analysis/core/verdicts.h), then advice (checks/advice.h),
+/// each the worst first. The advice takes the model's size into account where it is given.
 std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, const Theory&,
                                              const std::optional<Vec3d>& model_half_size_mm = std::nullopt);
 
@@ -18,9 +19,9 @@ std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, co
 /// and of its glasses.
 std::vector<std::string> worth_knowing(const Display&, const Geometry&, const Theory&);
 
-/// Every key, every length, the theory, why figures are undefined, and what is worth knowing: what `lfdsim check --json` prints.
-/// Names in it are fixed: scripts use them. Throws InputError for a display that is not valid. Without the warnings, for which rays
-/// are traced and content is read, it takes microseconds.
+/// Returns what `lfdsim check --json` prints: every key, every length, the theory, why figures are undefined, and the warnings.
+/// Names in it are fixed, since scripts use them. Throws InputError for a display that is not valid. Without the warnings, for
+/// which rays are traced and content is read, it takes microseconds.
 Json check_json(const Display&, bool warnings = true);
 
 }  // namespace lfdsim

@@ -1,4 +1,4 @@
-// What depends on the colour of light in a display whose glass disperses. Floor 4.
+// The theory of a display whose glass disperses, for each colour of light. Floor 4.
 #pragma once
 #include "analysis/core/result.h"
 #include "display/display.h"
@@ -16,10 +16,10 @@ struct ChannelTheory {
     std::vector<std::pair<std::string, double>> indices;  // of each glass, by the table that has it
 };
 
-/// Red, green and blue; none where light of all wavelengths takes the same path.
+/// Returns the theory of red, green and blue; nothing where light of all wavelengths takes the same path.
 std::vector<ChannelTheory> theory_by_colour(const Display&);
 
-/// {"r": {"wavelength_nm": ..., "index": {"lens": ...}}, ...}
+/// Returns {"r": {"wavelength_nm": ..., "index": {"lens": ...}}, ...}.
 Json to_json(const std::vector<ChannelTheory>&);
 
 }  // namespace lfdsim

@@ -16,6 +16,7 @@
 namespace lfdsim {
 namespace {
 
+// Each json_of() returns a value as JSON; absent ones are null.
 template <class T>
 Json json_of(const T& value) {
     if constexpr (has_words<T>)
@@ -37,8 +38,8 @@ Json json_of(const std::optional<T>& value) {
     return value ? json_of(*value) : Json();
 }
 
-/// The angles that the screen takes, horizontally and vertically, seen from the camera's distance on the axis: lenses before which
-/// the panel is. NaN from inside the display.
+/// Returns the angles that the screen subtends horizontally and vertically from the axis at the camera's distance, 2 atan(w / 2E):
+/// w the smaller of the array's bounding box and the panel's side over 1 + g/E. NaN from inside the display.
 std::vector<double> screen_field_deg(const Display& d, const Geometry& g) {
     const double eye = eye_distance_mm(d) - g.rear_principal_mm, c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
     if (!(eye_distance_mm(d) > nearest_eye_mm(g))) return {nan, nan};
@@ -95,11 +96,12 @@ std::vector<Figure> figures(const Display& d, const Geometry& g) {
 
 namespace {
 
-/// The lateral shift of each channel, the largest of all pixels of a cell; none without subpixels.
+/// Returns the lateral shift of each channel at the viewing distance, mm, the largest of all pixels of a cell; none without
+/// subpixels.
 std::vector<double> colour_shifts_mm(const Display& d, const Theory& t) {
     if (d.panel.subpixels == SubpixelLayout::none) return {};
     const std::array<std::int64_t, 2> cell = subpixel_cell(d.panel).size;
-    // p' / p - 1 = g / (D - z_H'), p as built
+    // p'/p - 1 = g/(D' - z_H'), p as built
     const double gap_per_distance = t.along[0].elemental_pitch_mm / (d.array.pitch_mm[0] * pitch_scale(d.errors)) - 1;
     std::vector<double> shifts;
     for (int channel = 0; channel < 3; ++channel) {
@@ -108,24 +110,24 @@ std::vector<double> colour_shifts_mm(const Display& d, const Theory& t) {
             for (std::int64_t column = 0; column < cell[0]; ++column)
                 if (const auto off = centroid(d.panel, channel, column, row))
                     most = std::max(most, std::hypot((*off)[0], (*off)[1]));
-        const bool central = most < 1e-12;  // but for rounding
+        const bool central = most < 1e-12;  // zero apart from rounding
         shifts.push_back(central ? 0 : most * d.panel.pixel_pitch_mm / gap_per_distance);
     }
     return shifts;
 }
 
-/// The published depth of field; NaN where half of it is more than L, so that it would reach to the lenses and beyond.
+/// Returns the published depth of field, 2 |L| P_I / D; NaN where half of it is |L| or more, so that it would reach the lenses.
 double published_depth_mm(const Theory& t) {
     return 0.5 * t.depth_of_field_mm < std::abs(t.central_depth_mm) ? t.depth_of_field_mm : nan;
 }
 
-/// Whether an eye far away sees lenses without dark parts between them.
+/// Whether an eye far away sees no dark parts between the lenses: the pupil is the whole cell.
 bool fills_cells(const Display& d, const Geometry& g) {
     return d.array.aperture == Aperture::cell && g.pupil.cells >= 1 - 1e-9 &&
            g.pupil.radius_mm >= outer_radius_mm(d.array) * (1 - 1e-9);
 }
 
-/// The sharp depths, named as in `analyze dof`, and the finest detail as the eye sees it.
+/// Returns the sharp depths, named as in `analyze dof`, and the resolution limits as the eye sees them.
 std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory& t) {
     constexpr const char* inside = "the camera is inside the display or behind it";
     const double eye = eye_distance_mm(d), z = g.content_depth_mm;
@@ -162,6 +164,7 @@ std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory&
 }  // namespace
 
 std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t) {
+    // Where the axes differ, a figure has two values.
     const bool by_axis = differs_by_axis(d.array);
     const auto along = [&](double AxisTheory::*figure) {
         const double x = t.along[0].*figure, y = t.along[1].*figure;
@@ -249,7 +252,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
 Json to_json(const std::vector<Setting>& all) {
     Json display = Json::object();
     for (const Setting& s : all) {
-        // "lens.surface.0": the tables and, by number, the members of lists on the way
+        // Down a path such as "lens.surface.0": tables by name, elements of lists by number.
         Json* table = &display;
         std::istringstream path(s.table);
         for (std::string part; std::getline(path, part, '.');)
@@ -259,7 +262,7 @@ Json to_json(const std::vector<Setting>& all) {
     return display;
 }
 
-/// "fov_y_deg" of "fov_deg": the figure along the array's own y.
+/// Returns the name of a figure along the array's y: "fov_y_deg" for "fov_deg".
 std::string name_along_y(std::string name) {
     for (const std::string_view unit : {"_per_mm", "_mm", "_nm", "_deg"})
         if (name.ends_with(unit)) return name.insert(name.size() - unit.size(), "_y");

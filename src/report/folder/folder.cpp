@@ -18,6 +18,7 @@ namespace lfdsim {
 namespace fs = std::filesystem;
 namespace {
 
+/// Returns a table as CSV with nine digits; cells without a finite value are empty.
 std::string csv(const DataTable& table) {
     std::string text;
     for (const Column& c : table.columns) text += (text.empty() ? "" : ",") + c.name;
@@ -33,7 +34,8 @@ std::string csv(const DataTable& table) {
     return text;
 }
 
-/// A report contains animations unchanged, so they are limited here: this many pixels, over all frames, take some megabytes.
+/// Writes an animation, reduced to 960 columns and 8 million pixels over all frames, which take some megabytes: a report contains
+/// animations unchanged.
 void write_small(const fs::path& path, const Animation& animation) {
     constexpr double most_pixels = 8e6, most_columns = 960;
     if (animation.frames.empty()) throw std::invalid_argument("an animation without frames");
@@ -54,11 +56,12 @@ bool named_as_of(const Measure& measure, const fs::path& file) {
            (kind == ".json" || kind == ".csv" || kind == ".svg" || kind == ".png");
 }
 
+/// Returns the error for a file that lfdsim has not written.
 InputError foreign(const fs::path& path) {
     return {path.string(), "is not a result of lfdsim and would be overwritten; give another folder, or --replace"};
 }
 
-// The same document where names in it hold what a terminal would obey.
+// Returns JSON as text in which characters that control a terminal are escaped, as names may have them.
 std::string dump(const Json& json) { return printable_lines(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n"; }
 
 }  // namespace
@@ -95,7 +98,7 @@ bool ResultFolder::has(const Measure& measure) const {
     }
 }
 
-/// Null: there is no result of this measure.
+/// Returns the settings of a measure's result; null if there is no result.
 Json ResultFolder::settings_of(const Measure& measure) const {
     if (!fs::is_regular_file(path_ / (std::string(measure.name) + ".json"))) return {};
     try {
@@ -129,7 +132,7 @@ void ResultFolder::remove_others() const {
         try {
             const Json json = read(m);
             for (const Json& file : json.at("report").at("files")) names.push_back(file.get<std::string>());
-        } catch (const std::exception&) {  // changed by hand: its other files are not known
+        } catch (const std::exception&) {  // NAME.json was changed by hand: the other files are not known
         }
         for (const fs::path name : names)
             if (std::error_code error; name == name.filename() && fs::is_regular_file(fs::symlink_status(path_ / name, error)))
@@ -138,7 +141,7 @@ void ResultFolder::remove_others() const {
     if (std::error_code error; any) fs::remove(path_ / report_name, error);
 }
 
-// Whether a file of the folder, named as those of the measure are, is of a result of its.
+// Whether a file of the folder, named like those of a measure, is one that the measure's result lists.
 bool ResultFolder::wrote(const Measure& measure, const fs::path& name) const {
     try {
         const Json json = read(measure), files = json.at("report").at("files");
@@ -174,6 +177,7 @@ void ResultFolder::keep_apart(std::span<const Measure* const> wanted, bool resum
 }
 
 Json ResultFolder::write(const Measure& measure, const Result& result, double seconds) const {
+    // Tables, plots, maps, pictures and animations, each with its file's name and title or caption.
     Json files = Json::array(), plots = Json::array(), maps = plots, pictures = plots, animations = plots;
     const auto keep = [&](Json& list, const std::string& name, const char* key, const std::string& text) {
         files.push_back(name);
@@ -200,6 +204,7 @@ Json ResultFolder::write(const Measure& measure, const Result& result, double se
         write_small(path_ / (animation.name + ".png"), animation);
         keep(animations, animation.name + ".png", "caption", animation.caption);
     }
+    // NAME.json, last.
     Json findings = Json::array();
     for (const Finding& f : result.findings)
         findings.push_back({{"what", f.what},

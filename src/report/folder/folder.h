@@ -9,28 +9,29 @@
 
 namespace lfdsim {
 
-/// Holds for each measure: NAME.json (its figures, and under "report" what the report shows), CSV tables, SVG plots and maps, PNG
-/// pictures and animations (made smaller so that a report can hold them). Files are written under a temporary name and renamed;
-/// NAME.json is written last, so a measure that has one is complete.
+/// A folder that contains for each measure: NAME.json (its figures, and under "report" what the report shows), CSV tables, SVG
+/// plots and maps, PNG pictures and animations (reduced, so that a report can contain them). Files are written under a temporary
+/// name and renamed; NAME.json is written last, so a measure that has one is complete.
 class ResultFolder {
   public:
-    /// Makes the folder if it is missing. `settings`: everything the results depend on. Throws InputError if it cannot be made.
+    /// Makes the folder if it is missing. `settings`: an object with everything that the results depend on (run_settings.h). Throws
+    /// InputError if the folder cannot be made.
     ResultFolder(std::filesystem::path, Json settings);
 
     const std::filesystem::path& path() const { return path_; }
     const Json& settings() const { return settings_; }
 
-    /// Whether a measure has been finished there with the same settings.
+    /// Whether the folder has the result of a measure with the same settings, and all of its files.
     bool has(const Measure&) const;
-    /// The measures that have been finished there with other settings, each with what differs: "fov (display, model)".
+    /// Returns the measures whose results have other settings, each with what differs: "fov (display, model)".
     std::vector<std::string> others() const;
-    /// Removes their results, and the report.
+    /// Removes the results of others(), and the report if there were any.
     void remove_others() const;
-    /// Removes them if they are to be replaced. Throws InputError that lists them otherwise, and InputError for files that these
-    /// measures would write over and that are no result of theirs: under their names where `resume` does not say that an earlier
-    /// run may have left them, and a report that lfdsim has not written.
+    /// With `replace`, does what remove_others() does. Otherwise throws InputError if there are others(), for a report that lfdsim
+    /// has not written, and for files with the names of these measures that are not of their results. With `resume`, such files are
+    /// allowed unless they are .json: an interrupted run may have left them.
     void keep_apart(std::span<const Measure* const> wanted, bool resume, bool replace) const;
-    /// The content of NAME.json. Throws InputError if it cannot be read.
+    /// Returns the content of NAME.json. Throws InputError if it cannot be read.
     Json read(const Measure&) const;
     /// Returns the content of NAME.json as written. Throws std::runtime_error when writing fails.
     Json write(const Measure&, const Result&, double seconds) const;
@@ -39,9 +40,9 @@ class ResultFolder {
 
     /// The name of the report in a folder of results.
     static constexpr const char* report_name = "report.html";
-    /// The mark in a report's head that lfdsim has written it.
+    /// The mark in the head of a report that lfdsim has written.
     static constexpr const char* report_mark = "<meta name=\"generator\" content=\"lfdsim\">";
-    /// Throws InputError if there is a report that does not have it.
+    /// Throws InputError if there is a report without the mark that is not to be replaced.
     static void keep_report_apart(const std::filesystem::path& folder, bool replace);
 
   private:

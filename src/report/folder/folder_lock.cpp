@@ -18,7 +18,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
     descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor_ < 0)
         throw InputError(folder.string(), "cannot be made: " + std::generic_category().message(error ? error.value() : errno));
-    // File systems that know no locks give other errors: there, runs are not kept apart.
+    // File systems without locks return other errors: there, runs are not kept apart.
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(descriptor_);
         throw InputError(folder.string(), "another run is writing its results there; wait until it ends, or give another folder");

@@ -1,14 +1,14 @@
-// A folder that one run at a time writes to. Floor 4.
+// A lock by which one run at a time writes to a folder. Floor 4.
 #pragma once
 #include <filesystem>
 
 namespace lfdsim {
 
-/// Holds a folder, which is made if it is missing, until it goes or the program ends in any way. Leaves nothing in it, and removes
-/// what programs that were killed have left there of files that they were writing.
+/// Holds a folder, which is made if it is missing, until it is destroyed or the program ends in any way. It leaves no file in the
+/// folder, and removes the partial files that killed programs have left there.
 class FolderLock {
   public:
-    /// Throws InputError if another run holds the folder, or if it is none and cannot be made one.
+    /// Throws InputError if another run holds the folder, or if it cannot be made.
     explicit FolderLock(const std::filesystem::path&);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;

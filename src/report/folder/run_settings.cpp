@@ -13,7 +13,7 @@ namespace lfdsim {
 
 namespace {
 
-/// ISO 8601, to the nanosecond: the clock of files counts from a date of its own.
+/// Returns a file's time by ISO 8601, to the nanosecond. The clock of files has another epoch than the system's.
 std::string time_text(std::filesystem::file_time_type file_time) {
     const auto time = std::chrono::file_clock::to_sys(file_time);
     const auto second = std::chrono::floor<std::chrono::seconds>(time);
@@ -39,7 +39,7 @@ Json content_stamp(const Display& display) {
 
 namespace {
 
-/// Evenly spaced values as first, last and count; others as a list.
+/// Returns evenly spaced values as first, last and count; others as a list; null where there are none.
 Json told(const std::vector<double>& values) {
     if (values.empty()) return Json();
     const double step = (values.back() - values.front()) / double(std::max<std::size_t>(values.size() - 1, 1));

@@ -1,4 +1,4 @@
-// What the results of a run depend on, so that they can be told from those of another. Floor 4.
+// Everything that the results of a run depend on, by which they are distinguished from those of other runs. Floor 4.
 #pragma once
 #include "analysis/core/result.h"
 #include "analysis/core/subject.h"
@@ -7,12 +7,12 @@
 
 namespace lfdsim {
 
-/// The stamp of a file, which changes with it; of a name that is no file's, only the name.
+/// Returns the stamp of a file, {"file", "bytes", "changed"}, which changes with it; of a name that is not a file, {"file"}.
 Json stamp(const std::string& file);
-/// The stamps of a display's content: of its model, or a list of its objects' files.
+/// Returns the stamp of a display's model, or a list of those of its objects' files.
 Json content_stamp(const Display&);
 
-/// The settings of a ResultFolder for the measures of a subject.
+/// Returns the settings of a ResultFolder for the measures of a subject; `version` is the program's.
 Json run_settings(const Subject&, const std::string& version);
 
 }  // namespace lfdsim

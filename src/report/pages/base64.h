@@ -6,7 +6,7 @@
 
 namespace lfdsim {
 
-/// RFC 4648, section 4.
+/// Returns bytes in base 64 by RFC 4648, section 4.
 inline std::string base64(std::string_view bytes) {
     constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;

@@ -13,9 +13,10 @@
 namespace lfdsim {
 namespace {
 
+/// A measure that the report shows.
 struct ReportedFigure {
     const Measure* measure;
-    Json measured;
+    Json measured;  // the content of its NAME.json
 };
 
 std::vector<ReportedFigure> results_of(const ResultFolder& folder) {
@@ -31,7 +32,8 @@ bool holds(const std::vector<ReportedFigure>& shown, const Measure* m) {
 
 std::string name_of(const Measure* m) { return fmt::format("{} ({})", escaped(m->title), escaped(m->name)); }
 
-/// The wanted measures that are missing, with the reasons; empty: none.
+/// Returns a box that names the wanted measures that are missing, with the reasons; empty if none are and the run was not
+/// interrupted.
 std::string missing_measures(const std::vector<ReportedFigure>& shown, const ReportAbout& about) {
     std::string why, names;
     for (const auto& [m, what] : about.failed)
@@ -51,8 +53,7 @@ constexpr const char* contents =
     "<nav aria-label=\"Contents\"><ul>\n<li><a href=\"#verdict\">In short</a></li>\n<li><a href=\"#summary\">All figures</a></li>\n"
     "<li><a href=\"#display\">The display</a></li>\n<li><a href=\"#settings\">Settings</a></li>\n</ul></nav>\n";
 
-/// The summary: warnings of the design, the first finding of each measure, and pictures, on the first screen, before all tables
-/// and plots.
+/// Returns the part before all tables and plots: warnings about the design, the first finding of each measure, and small pictures.
 std::string verdict(const Subject& subject, const ResultFolder& folder, const std::vector<ReportedFigure>& shown) {
     std::string found, doubts, pictures;
     for (const ReportedFigure& s : shown) {
@@ -76,6 +77,7 @@ std::string verdict(const Subject& subject, const ResultFolder& folder, const st
     return html + "</section>\n";
 }
 
+/// Returns the table of all findings, by measure.
 std::string summary(const std::vector<ReportedFigure>& shown) {
     std::string html = findings_table;
     std::size_t figures = 0;
@@ -90,7 +92,7 @@ std::string summary(const std::vector<ReportedFigure>& shown) {
            folded(fmt::format("{} side by side", counted(figures, "figure")), html + "</table></div>\n") + "</section>\n";
 }
 
-/// Everything the results depend on; the description comes last, as text.
+/// Returns the part with everything that the results depend on; the description comes last, as text.
 std::string settings(const ResultFolder& folder, const ReportAbout& about) {
     std::string html = "<p>The command:</p>\n<pre>" + escaped(about.command) + "</pre>\n<div class=\"wide\"><table>\n";
     for (const auto& [key, value] : folder.settings().items()) {

@@ -9,21 +9,22 @@
 
 namespace lfdsim {
 
+/// What a report says about the run.
 struct ReportAbout {
     std::string command;                                              // the command line
     std::string description;                                          // the display's, TOML
-    std::vector<const Measure*> wanted;                               // of this run
-    std::vector<std::pair<const Measure*, std::string>> failed = {};  // and why
+    std::vector<const Measure*> wanted;                               // measures of this run
+    std::vector<std::pair<const Measure*, std::string>> failed = {};  // measures that refused their input, and why
     bool interrupted = false;
 };
 
-/// Whether the folder holds a measure with its settings, to be shown.
+/// Whether the folder has the result of any measure with the folder's settings.
 bool has_results(const ResultFolder&);
 
-/// First what was found and what is worth knowing, in short; then the figures, once; then each measure with its plots and pictures.
-/// UTF-8, without scripts or references to other files: plots and pictures are inline, pictures about 1000 pixels wide. Shows every
-/// measure that the folder holds with its settings; where some of those wanted are missing it says so at the top. The same folder
-/// and arguments give the same text. A picture that cannot be read is named in its place.
+/// Returns the report: first the warnings and the main findings, in short; then the figures, once; then each measure with its plots
+/// and pictures. It is UTF-8, without scripts or references to other files: plots and pictures are inline, pictures at most 1000
+/// pixels wide. It shows every measure of the folder with the folder's settings; where some of those wanted are missing it says so
+/// at the top. The same folder and arguments give the same text. In place of a picture that cannot be read is a message.
 std::string report_html(const Subject&, const ResultFolder&, const ReportAbout&);
 
 }  // namespace lfdsim

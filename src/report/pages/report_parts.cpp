@@ -17,8 +17,8 @@
 namespace lfdsim {
 namespace {
 
-constexpr int most_columns = 1000, glance_columns = 240;  // of a picture in the report, and at its head
-constexpr std::ptrdiff_t most_glances = 3;                // of a measure
+constexpr int most_columns = 1000, glance_columns = 240;  // of a picture in its section, and in the first part
+constexpr std::ptrdiff_t most_glances = 3;                // pictures of a measure in the first part
 
 std::string text_of(const Json& json, const char* key) { return escaped(json.at(key).get<std::string>()); }
 
@@ -29,7 +29,7 @@ std::string bytes_of(const std::filesystem::path& path) {
     return bytes;
 }
 
-/// Columns of a PNG, from its header; 0: it is not one.
+/// Returns the columns of a PNG, from its header; 0 for other bytes.
 int columns_of(const std::string& png) {
     if (png.size() < 24 || png.compare(1, 3, "PNG") != 0) return 0;
     int columns = 0;
@@ -43,7 +43,7 @@ std::string figure(const std::string& inside, const std::string& caption) {
 
 std::string inline_svg(const std::string& svg) { return fmt::format("<div class=\"drawing\">{}</div>", svg); }
 
-/// The result of `make` for the file that an entry names; for a file that cannot be shown, a message with its name.
+/// Returns the result of `make` for the file that an entry names; a message for a file that cannot be shown.
 template <class Make>
 std::string shown(const ResultFolder& folder, const Json& entry, Make make) {
     const std::string name = entry.at("file");
@@ -65,7 +65,7 @@ std::string plots(const ResultFolder& folder, const Json& list) {
     return html;
 }
 
-/// The pictures with at most `most` columns; 0: as they are.
+/// Returns the pictures of a list, reduced to at most `most` columns; 0: unchanged.
 std::string pictures(const ResultFolder& folder, const Json& list, int most) {
     std::string html;
     for (const Json& entry : list)
@@ -82,7 +82,7 @@ std::string pictures(const ResultFolder& folder, const Json& list, int most) {
     return html;
 }
 
-/// Rows of sizes and theory, each a name and its value.
+/// Returns the rows of the table of sizes and theory.
 std::string theory_rows(const Subject& s) {
     const Display& d = s.display();
     const Geometry& g = s.geometry();

@@ -50,7 +50,7 @@ bool are_numbers(const Json& list, std::size_t count) {
            std::all_of(list.begin(), list.end(), [](const Json& x) { return x.is_number(); });
 }
 
-/// The difference of two figures, each a number or an interval; null unless both have as many numbers.
+/// Returns the difference of two figures, each a list of one number or of an interval's two; null unless both have the same number.
 Json difference(const Json& from, const Json& to) {
     if (from.is_null() || from.empty() || !are_numbers(from, from.size()) || !are_numbers(to, from.size())) return {};
     Json all = Json::array();
@@ -58,6 +58,7 @@ Json difference(const Json& from, const Json& to) {
     return all;
 }
 
+/// Returns whether any number of a difference exceeds the sum of both errors; null where the difference or an error is missing.
 Json more_than_errors(const Json& difference, const Json& one, const Json& other) {
     if (difference.is_null() || !are_numbers(one, difference.size()) || !are_numbers(other, difference.size())) return {};
     for (std::size_t k = 0; k < difference.size(); ++k)
@@ -65,7 +66,7 @@ Json more_than_errors(const Json& difference, const Json& one, const Json& other
     return false;
 }
 
-/// The findings of one measure, one entry for each quantity, in the order of first occurrence.
+/// Returns the findings of one measure, one entry for each quantity, in the order of first occurrence.
 Json findings_of(const Measure& m, std::span<const MeasuredDisplay> displays) {
     Json all = Json::array();
     for (std::size_t n = 0; n < displays.size(); ++n) {
@@ -157,7 +158,7 @@ std::string findings_section(const Json& all) {
            "figures. Where there is no remark, at least one figure has no stated error.</p>\n</section>\n";
 }
 
-/// Plots and pictures of a measure: those at the same position in each display's list next to each other.
+/// Returns the plots and pictures of a measure: those at the same position in each display's list next to each other.
 std::string measure_section(const Measure& m, std::span<const MeasuredDisplay> displays) {
     std::vector<std::vector<std::string>> columns;
     std::size_t rows = 0;

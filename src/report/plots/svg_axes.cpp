@@ -9,7 +9,7 @@ namespace {
 
 constexpr double most = 1e300;  // differences of such numbers are finite
 
-/// 1, 2 or 5 times a power of ten, not less than x.
+/// Returns the least of 1, 2 or 5 times a power of ten that is not less than x > 0.
 double round_up(double x) {
     const double power = std::pow(10, std::floor(std::log10(x)));
     for (const double digit : {1., 2., 5.})
@@ -46,6 +46,7 @@ std::vector<double> PlotAxis::ticks() const {
 std::string PlotAxis::label(double tick) const {
     if (std::abs(tick) < 0.5 * step_) return "0";
     const double size = std::max(std::abs(low_), std::abs(high_));
+    // Decimals down to the first digit of the step; very large or small numbers have an exponent.
     const int of_step = int(std::floor(std::log10(step_) + 1e-9)), of_size = int(std::floor(std::log10(size)));
     std::string text = fmt::format("{:.{}f}", std::abs(tick), std::max(0, -of_step));
     if (size >= 1e6 || step_ < 1e-5) text = fmt::format("{:.{}e}", std::abs(tick), std::max(0, of_size - of_step));

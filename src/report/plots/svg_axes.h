@@ -10,23 +10,23 @@ namespace lfdsim {
 /// A range of numbers with ticks at multiples of 1, 2 or 5 times a power of ten.
 class PlotAxis {
   public:
-    /// An axis with at most about `ticks` ticks. A range without width is widened; low > high means an empty range, shown as 0 ..
-    /// 1.
+    /// Makes an axis with at most about `ticks` ticks. A range without width is widened; low > high means an empty range, shown as
+    /// 0 to 1.
     PlotAxis(double low, double high, int ticks);
 
     double low() const { return low_; }
     double high() const { return high_; }
     std::vector<double> ticks() const;
-    /// The text of a tick: as many decimals as the step needs, a true minus sign.
+    /// Returns the text of a tick, with the decimals that the step needs and a true minus sign.
     std::string label(double tick) const;
-    /// 0 at low, 1 at high.
+    /// Returns a value's position along the axis: 0 at low, 1 at high.
     double share(double value) const { return (value - low_) / (high_ - low_); }
 
   private:
     double low_, high_, step_;
 };
 
-/// The smallest and the largest of the values added; those that are not finite do not count.
+/// The smallest and the largest of the values added; those that are not finite, or above 1e300, do not count.
 struct PlotRange {
     double low = 1, high = -1;
     bool empty() const { return low > high; }
@@ -43,11 +43,11 @@ struct PlotFrame {
     }
     double right() const { return left + width; }
     double bottom() const { return top + height; }
-    /// Grid, ticks, numbers and labels.
+    /// Draws ticks, numbers, labels and, if wanted, a grid.
     void draw(SvgDrawing&, const std::string& x_label, const std::string& y_label, bool grid) const;
 };
 
-/// Pixels that the numbers and the label of an axis need beside the frame.
+/// Returns the pixels that the numbers and the label of an upright axis need beside the frame.
 double room_beside(const PlotAxis&);
 inline constexpr double room_below = 48;
 

@@ -35,14 +35,14 @@ std::string px(double x) {
 }
 
 double text_width(std::string_view text, double size) {
-    // Of the characters from the space to the tilde in DejaVu Sans, hundredths of the size, rounded up.
+    // The widths of the characters from the space to the tilde in DejaVu Sans, hundredths of the size, rounded up.
     static constexpr unsigned char widths[] = {
         32, 41, 46, 84, 64, 96, 78, 28, 40,  40, 50, 84, 32, 37, 32, 34, 64, 64, 64, 64, 64, 64, 64, 64,  //
         64, 64, 34, 34, 84, 84, 84, 54, 100, 69, 69, 70, 78, 64, 58, 78, 76, 30, 30, 66, 56, 87, 75, 79,  //
         61, 79, 70, 64, 62, 74, 69, 99, 69,  62, 69, 40, 34, 40, 84, 50, 50, 62, 64, 55, 64, 62, 36, 64,  //
         64, 28, 28, 58, 28, 98, 64, 62, 64,  64, 42, 53, 40, 64, 60, 82, 60, 60, 53, 64, 34, 64, 84};
     static_assert(std::size(widths) == '~' - ' ' + 1);
-    constexpr int widest = 100;  // of letters that are not of ASCII
+    constexpr int widest = 100;  // assumed of characters that are not ASCII
     int sum = 0;
     for (const char c : text) {
         const bool begins = (c & 0xc0) != 0x80;  // a character of UTF-8
@@ -65,17 +65,18 @@ std::vector<std::string> wrapped(std::string_view text, double size, double widt
     return lines;
 }
 
-// From the right, each in the lowest row where it ends to the left of the labels and lines already placed.
+// Labels are placed from the right, each in the lowest row where it ends to the left of the labels and lines already placed.
 std::vector<LabelPlace> place_labels(std::span<const double> lines, std::span<const std::string> labels, double size,
                                      double width) {
     std::vector<LabelPlace> places(lines.size());
-    std::vector<double> free;  // of each row, up to where
+    std::vector<double> free;  // for each row, the x up to which it is free
     for (std::size_t k = lines.size(); k-- > 0;) {
         const double wide = text_width(labels[k], size), x = std::max(0., std::min(lines[k] + 3, width - wide));
         std::size_t row = 0;
         while (row < free.size() && x + wide > free[row] - 8) ++row;
         if (row == free.size()) free.push_back(width);
-        for (std::size_t r = 0; r <= row; ++r) free[r] = std::min({free[r], x, lines[k]});  // its line rises through them
+        // The label's line rises through its row and all rows below.
+        for (std::size_t r = 0; r <= row; ++r) free[r] = std::min({free[r], x, lines[k]});
         places[k] = {x, int(row)};
     }
     return places;

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double map_width = 600, bar_width = 18;
 
-/// Dark blue through green to light yellow, 0 .. 1: lightness rises evenly, so that the map is readable in grey and without colour
-/// vision. Oklab (Ottosson, "A perceptual color space for image processing", 2020) to sRGB.
+/// Returns the sRGB codes of a colour from dark blue (t = 0) through green to light yellow (1): lightness rises evenly, so that the
+/// map is readable in grey and without colour vision. It is computed in Oklab (Ottosson, "A perceptual color space for image
+/// processing", 2020).
 std::array<std::uint8_t, 3> colour(double t) {
     const double light = 0.28 + 0.67 * t, turn = (285 - 180 * t) * degree, chroma = 0.09 + 0.06 * t * (1.6 - t);
     const double a = chroma * std::cos(turn), b = chroma * std::sin(turn);
@@ -33,6 +34,7 @@ std::array<std::uint8_t, 3> colour(double t) {
     return codes;
 }
 
+/// Returns the map as a PNG of one pixel for each value; values that are not finite are transparent.
 std::string png_of(const ColourMap& map) {
     std::vector<std::uint8_t> codes;
     codes.reserve(map.values.size() * 4);
@@ -62,7 +64,7 @@ std::string picture(const std::string& png, Point corner, double wide, double hi
         px(corner[0]), px(corner[1]), px(wide), px(high), base64(png));
 }
 
-/// The part of a label after its last comma.
+/// Returns the part of a label after its last comma, its unit.
 std::string unit(const std::string& label) {
     const std::size_t comma = label.rfind(", ");
     return comma == label.npos ? "" : label.substr(comma + 2);
@@ -74,11 +76,12 @@ std::string svg(const ColourMap& map) {
     if (map.columns < 1 || map.rows < 1 || map.values.size() != std::size_t(map.columns) * std::size_t(map.rows))
         throw std::invalid_argument("a map's values are not rows x columns");
     if (!(map.x0 <= map.x1 && map.y0 <= map.y1 && map.low <= map.high)) throw std::invalid_argument("a map's range is reversed");
+    // Axes, and the size of the map's area.
     const PlotAxis x(map.x0, map.x1, 8), y(map.y0, map.y1, 6), scale(map.low, map.high, 6);
     const double left = room_beside(y) + 4, right = bar_width + 24 + room_beside(scale);
     double wide = map_width - left - right, high = 320;
     if (const std::string of_x = unit(map.x_label); !of_x.empty() && of_x == unit(map.y_label)) {
-        const double sides = (x.high() - x.low()) / (y.high() - y.low());  // as they are
+        const double sides = (x.high() - x.low()) / (y.high() - y.low());  // width over height, in the unit of both axes
         if (sides > 0.2 && sides < 5) {
             high = std::min(440., wide / sides);
             wide = high * sides;
@@ -93,6 +96,7 @@ std::string svg(const ColourMap& map) {
     drawing.add(picture(png_of(map), {left, top}, wide, high));
     frame.draw(drawing, map.x_label, map.y_label, false);
 
+    // The colour scale.
     const double bar = frame.right() + 20;
     drawing.add(picture(png_of_scale(), {bar, top}, bar_width, high));
     drawing.rectangle({bar, top}, bar_width, high, "stroke=\"currentColor\"");

@@ -17,7 +17,7 @@ constexpr const char* colours[] = {"#1f7fc0", "#d55e00", "#009e73", "#b0508a", "
 constexpr const char* dashes[] = {"", " stroke-dasharray=\"8 4\"", " stroke-dasharray=\"2 3\"", " stroke-dasharray=\"9 3 2 3\""};
 constexpr const char* mark_style = "stroke=\"currentColor\" stroke-opacity=\"0.6\" stroke-dasharray=\"5 4\"";
 
-/// The colours of curves that are about a channel of the panel.
+/// The colours of curves of the panel's channels: red, green, blue.
 constexpr const char* channel_colours[] = {"#d64545", "#2e9e55", "#3f78d8"};
 
 const char* colour_of(const Series& s, std::size_t k) {
@@ -28,7 +28,8 @@ std::string line_style(const Series& s, std::size_t k) {
     return fmt::format("stroke=\"{}\" stroke-width=\"2\"{}", colour_of(s, k), dashes[k % std::size(dashes)]);
 }
 
-/// Disks (lines without length, their ends round), squares (lines as wide as long) and crosses.
+/// Returns marks at points, by the number of the series: disks (lines without length with round ends), squares (lines as wide as
+/// long) or crosses.
 std::string dots(const Series& s, const std::vector<Point>& points, std::size_t k) {
     std::string d;
     for (const auto& [x, y] : points) {
@@ -44,6 +45,8 @@ struct Ranges {
     PlotRange x, y;
 };
 
+/// Returns the ranges of the axes: of all finite points, and of y also of thresholds near them, with a margin of 5 %, or from 0
+/// where that is near.
 Ranges ranges(const Plot& plot) {
     Ranges r;
     for (const Series& s : plot.series) {
@@ -54,7 +57,7 @@ Ranges ranges(const Plot& plot) {
             r.y.add(s.y[i]);
         }
     }
-    // Thresholds that are close enough are included in the range.
+    // A threshold is included if it is no further outside than the range is wide.
     const double span = r.y.high - r.y.low, low = r.y.low - span, high = r.y.high + span;
     for (const PlotMark& m : plot.marks)
         if (!m.vertical && (r.y.empty() || span == 0 || (m.at >= low && m.at <= high))) r.y.add(m.at);
@@ -65,20 +68,21 @@ Ranges ranges(const Plot& plot) {
     return r;
 }
 
+/// The labels of series and of marks outside the plot, in rows from left to right.
 struct Legend {
     explicit Legend(double width) : width_(width) {}
 
     struct Entry {
         std::string label;
-        int series;  // -1: text alone
-        double x;
-        int row;
-        bool begins;  // the label
+        int series;   // whose line is drawn before the text; -1: none
+        double x;     // pixels
+        int row;      // 0 at the top
+        bool begins;  // it is the first line of its label
     };
     std::vector<Entry> entries;
     int rows = 0;
 
-    /// A label that is wider than the plot goes on in further rows.
+    /// Adds a label, to the last row if it fits there; one that is wider than the plot continues in further rows.
     void add(const std::string& label, int series) {
         const double sample = series < 0 ? 0 : 36, wide = sample + text_width(label, 13) + 18;
         if (rows == 0 || next_ + wide > width_ - 12) {
@@ -107,7 +111,7 @@ Legend legend_of(const Plot& plot, const PlotAxis& x, const PlotAxis& y, double 
     return legend;
 }
 
-/// The upright marks within the axis, and the places of their labels above the frame.
+/// The upright marks within the x axis, and the positions of their labels above the frame.
 struct MarkLabels {
     std::vector<const PlotMark*> marks;
     std::vector<LabelPlace> places;
@@ -128,6 +132,7 @@ struct MarkLabels {
     }
 };
 
+/// Draws a series as lines between consecutive points; points without neighbours, and series of dots, are drawn as marks.
 void draw_series(SvgDrawing& drawing, const PlotFrame& frame, const Series& s, std::size_t k) {
     std::vector<Point> run, alone;
     const auto finish = [&] {
@@ -147,7 +152,7 @@ void draw_series(SvgDrawing& drawing, const PlotFrame& frame, const Series& s, s
     if (!alone.empty()) drawing.add(dots(s, alone, k));
 }
 
-/// A row for each bar, its label at the left, over what of it is drawn.
+/// Draws a row for each bar, with its label at the left over its spans.
 void draw_bars(SvgDrawing& drawing, const PlotFrame& frame, const std::vector<PlotBar>& bars, double top) {
     for (std::size_t k = 0; k < bars.size(); ++k) {
         const double row = top + bar_row * double(k);
@@ -165,7 +170,7 @@ void draw_bars(SvgDrawing& drawing, const PlotFrame& frame, const std::vector<Pl
     }
 }
 
-/// Gives both axes the same scale: the axis that would be shown larger is widened. Room is left at the borders.
+/// Gives both axes the same scale: the range that would be enlarged more is widened. 6 % are left at the borders.
 void make_equal(Ranges& r, double wide, double high) {
     const double per_pixel = 1.06 * std::max((r.x.high - r.x.low) / wide, (r.y.high - r.y.low) / high);
     const auto widen = [&](PlotRange& range, double pixels) {
@@ -179,6 +184,7 @@ void make_equal(Ranges& r, double wide, double high) {
 }  // namespace
 
 std::string svg(const Plot& plot, double width) {
+    // Axes, with room for the labels of thresholds at the right.
     Ranges r = ranges(plot);
     double right = 16;
     for (const PlotMark& m : plot.marks)
@@ -193,6 +199,7 @@ std::string svg(const Plot& plot, double width) {
     }
     const PlotAxis x(r.x.low, r.x.high, width < 480 ? 5 : 9), y(r.y.low, r.y.high, 6);
 
+    // The layout, from the top: title, legend, bars, labels of upright marks, the frame.
     const std::vector<std::string> title = wrapped(plot.title, 17, width - 24);
     const Legend legend = legend_of(plot, x, y, width);
     const MarkLabels marks(plot, x, left, width - left - right, width);
@@ -218,10 +225,11 @@ std::string svg(const Plot& plot, double width) {
     draw_bars(drawing, frame, plot.bars, bars_top);
     for (std::size_t k = 0; k < marks.marks.size(); ++k) {
         const double at_x = frame.at(marks.marks[k]->at, y.low())[0], label_y = top - 5 - mark_row * marks.places[k].row;
-        const double rise = marks.places[k].x < at_x ? -3 : 9;  // to the top of its label, or, if that had to make way, below
+        const double rise = marks.places[k].x < at_x ? -3 : 9;  // the line ends beside its label or, if that lies across it, below
         drawing.line({at_x, label_y - rise}, {at_x, frame.bottom()}, mark_style);
         drawing.text({marks.places[k].x, label_y}, marks.marks[k]->label, "font-size=\"12\"");
     }
+    // Thresholds from the top down, their labels at least 13 pixels apart.
     double above = -1e9;
     std::vector<const PlotMark*> levels;
     for (const PlotMark& m : plot.marks)
