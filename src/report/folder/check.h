@@ -10,8 +10,8 @@
 
 namespace lfdsim {
 
-/// Returns sentences on the faults of a display: verdicts by tracing (analysis/core/verdicts.h), then advice (checks/advice.h),
-/// each the worst first. The advice takes the model's size into account where it is given.
+/// Returns sentences on the faults of a display, the worst first: verdicts by tracing (analysis/core/verdicts.h), then advice
+/// (checks/advice.h), which takes the model's size into account where it is given.
 std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, const Theory&,
                                              const std::optional<Vec3d>& model_half_size_mm = std::nullopt);
 

@@ -38,7 +38,7 @@ Json json_of(const std::vector<Problem>& problems) {
     return all;
 }
 
-/// The display as described, without the page's settings; with them where it is not valid with this eye.
+/// Returns the display as described, without the page's settings; `display` where that is not valid with this eye.
 Display described(const Library& library, Wanted wanted, const Display& display) {
     wanted.set.clear();
     try {
@@ -48,7 +48,7 @@ Display described(const Library& library, Wanted wanted, const Display& display)
     }
 }
 
-/// The display that is wanted; where it is not valid, the one that the program was started with.
+/// Returns the display that is wanted; where it is not valid, the one that the program was started with.
 Display wanted_or_started(const Library& library, const Wanted& wanted) {
     try {
         return library.display(wanted);
@@ -57,7 +57,7 @@ Display wanted_or_started(const Library& library, const Wanted& wanted) {
     }
 }
 
-// File names may contain any bytes, JSON is UTF-8.
+// Returns a message that is valid UTF-8, as JSON must be: names of files may have any bytes.
 Json in_utf8(Json json) {
     try {
         json.dump();
@@ -93,7 +93,8 @@ Json side(const Display& display, const std::string& name) {
               {"box", {f.left, f.top, f.width, f.height}}}}};
 }
 
-/// The file of the model that is shown, or would be if nothing else were; or built-in:spheres, or scene_of_objects.
+/// Returns the file of the model that is shown, or that would be shown without a picture or pattern; or built-in:spheres, or
+/// scene_of_objects.
 std::string model_file(const Library& library, const Wanted& wanted, const Display& display) {
     if (wanted.shown.kind == Shown::Kind::model)
         return wanted.shown.name == built_in_spheres ? wanted.shown.name
@@ -110,7 +111,7 @@ class Cancellable : public Job {
     const std::function<bool()>& cancelled_;
 };
 
-/// A file's name for a description that lies beside `other`: relative to that folder where the file lies below it.
+/// Returns a file's name as a description beside `other` has it: relative to that folder where the file is below it, else absolute.
 std::string name_beside(const std::filesystem::path& other, const std::string& file) {
     namespace fs = std::filesystem;
     const fs::path full = fs::absolute(file).lexically_normal(),
@@ -119,7 +120,7 @@ std::string name_beside(const std::filesystem::path& other, const std::string& f
     return below ? relative.string() : full.string();
 }
 
-/// The current description, for the file `to`.
+/// Returns the current description as it is saved in the file `to`.
 std::string toml(const Library& library, const Wanted& wanted, const std::filesystem::path& to) {
     Display display = library.display(wanted);
     const std::string model = model_file(library, wanted, display);

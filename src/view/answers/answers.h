@@ -12,11 +12,11 @@ namespace lfdsim::view {
 
 using Json = nlohmann::ordered_json;
 
-/// The message "resolved" or, for a display that is not valid, "problems": docs/view-protocol.md.
+/// Returns the message "resolved" or, for a display that is not valid, "problems": docs/view-protocol.md.
 Json resolved(const Library&, const Wanted&);
 
-/// The message "answer". Takes milliseconds, except for plots, which may take seconds and stop when `cancelled` returns true.
-/// Errors in the question are reported in the answer's "problems"; never throws InputError.
+/// Returns the message "answer". It takes milliseconds, except for plots, which may take seconds and stop when `cancelled` returns
+/// true. Errors are reported in the answer's "problems"; it does not throw InputError.
 Json answer(const Library&, Panels&, const Wanted&, const Ask&, const std::function<bool()>& cancelled);
 
 }  // namespace lfdsim::view

@@ -8,7 +8,7 @@
 namespace lfdsim::view {
 namespace {
 
-/// The option for what the panel shows, "--model monkey.blend". Empty: the description's model.
+/// Returns the option for what the panel shows, " --model monkey.blend"; empty for the description's model.
 std::string shown_option(const Library& library, const Shown& shown) {
     const Start& start = library.start();
     switch (shown.kind) {

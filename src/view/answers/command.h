@@ -7,8 +7,8 @@
 
 namespace lfdsim::view {
 
-/// The command for a shell in the folder where the program was started: `lfdsim render ... -o view.png`, which gives the final
-/// picture, bit for bit; left.png and right.png for two eyes. Where the panel is held, its elemental images are made first
+/// Returns the command for a shell in the folder where the program was started: `lfdsim render ... -o view.png`, which makes the
+/// final picture, bit for bit; left.png and right.png for two eyes. Where the elemental images are held, they are made first
 /// (eia.png). Throws InputError for files that do not exist.
 std::string command(const Library&, const Wanted&);
 

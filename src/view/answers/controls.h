@@ -5,8 +5,8 @@
 
 namespace lfdsim::view {
 
-/// The "controls" of the message "resolved" (docs/view-protocol.md), for a valid display. `described` is the display without the
-/// page's changes: sliders have its values in the middle, so that their ranges do not move while they are dragged.
+/// Returns the "controls" of the message "resolved" (docs/view-protocol.md), for a valid display. `described` is the display
+/// without the page's changes: the ranges of sliders follow from its values, so that they do not move while a slider is dragged.
 Json controls(const Display&, const Display& described);
 
 }  // namespace lfdsim::view

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view cut = "\u2026/";
 
-/// The text as it stands in JSON, without the quotes.
+/// Returns a text as it is written in JSON, without the quotes.
 std::string in_json(const std::string& text) {
     const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return quoted.substr(1, quoted.size() - 2);
@@ -34,7 +34,7 @@ bool begins_a_path(std::string_view json, std::size_t i) {
     return is_one_of(before, " \"'`:;,([{>|=");
 }
 
-/// The end of a path that begins at i. What is a text from its first character on may have blanks in its folders' names.
+/// Returns the end of a path that begins at i. A path that begins a JSON text may have blanks in the names of its folders.
 std::size_t end_of_path(std::string_view json, std::size_t i) {
     const bool blanks = i > 0 && json[i - 1] == '"' && (i < 2 || json[i - 2] != '\\');
     std::size_t end = i;

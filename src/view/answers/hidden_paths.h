@@ -1,4 +1,4 @@
-// Takes absolute paths out of what visitors are told. Floor 5.
+// Removes absolute paths from messages to visitors. Floor 5.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -15,11 +15,11 @@ class HiddenPaths {
     /// left, as in "…/tablet.toml"; `others` are folders that are known by name, so that their own parts may have any characters.
     HiddenPaths(const std::filesystem::path& served, const std::vector<std::filesystem::path>& others);
 
-    /// A message in JSON without absolute paths.
+    /// Returns a message in JSON without absolute paths.
     std::string without(const std::string& json) const;
 
   private:
-    std::vector<std::pair<std::string, std::string>> folders_;  // as in JSON, and what stands in its place; the longest first
+    std::vector<std::pair<std::string, std::string>> folders_;  // as written in JSON, and what replaces it; the longest first
 };
 
 }  // namespace lfdsim::view

@@ -25,7 +25,7 @@ constexpr int deepest = 6;  // folders below the served one
 
 std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
 
-// JSON cannot carry other names.
+// Whether a name is UTF-8; messages in JSON cannot have others.
 bool is_utf8(const std::string& text) {
     try {
         nlohmann::json(text).dump();
@@ -35,7 +35,7 @@ bool is_utf8(const std::string& text) {
     }
 }
 
-/// The name as a path of plain parts only. Throws InputError.
+/// Returns a name as a relative path whose parts are neither empty nor begin with a dot. Throws InputError for others.
 fs::path relative(const std::string& name) {
     const fs::path path(name);
     if (name.empty() || name.size() > longest_name || name.find('\0') != name.npos || !is_utf8(name))
@@ -47,14 +47,14 @@ fs::path relative(const std::string& name) {
     return path;
 }
 
-// Both without links.
+// Whether a path is in a folder, or is that folder; both are without links.
 bool inside(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Throws InputError unless `path` leads to something in the folder.
+/// Returns the path without links. Throws InputError unless it leads to something in the folder.
 fs::path resolve_inside(const fs::path& path, const fs::path& folder, const std::string& name) {
-    // Links that lead out are told like names of nothing: what is there is nobody's affair.
+    // A link that leads out has the same message as a name that does not exist, so that visitors learn nothing about other folders.
     std::error_code error, of_folder;
     const fs::path real = fs::canonical(path, error), top = fs::canonical(folder, of_folder);
     if (error || of_folder || !inside(real, top)) throw InputError(quoted(name), "is not in the folder that is served");
@@ -88,7 +88,7 @@ const Served& served_as(Library::FileKind kind) {
     throw std::logic_error("a kind of file that is not served");
 }
 
-/// Whether a text means to be a display's description: the key "schema" stands above its first table. Nothing else is looked at.
+/// Whether a text is meant as a display's description: it has the key "schema" before its first table. Nothing else is checked.
 bool is_description(std::string_view text) {
     constexpr std::string_view blank = " \t\r", key = "schema";
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
@@ -108,7 +108,8 @@ bool is_description(std::string_view text) {
 
 bool meant_as_description(const fs::path& path) { return is_description(read_text(path)); }
 
-/// Adds a file that a page could show: of a model only the ending is looked at, of a picture the header. False: it could not.
+/// Adds a file if a page could show it, and returns whether it could: of a model only the ending is checked, of a picture the
+/// header.
 bool add(Library::Files& found, const fs::path& path, const std::string& name, Library::FileKind kind, const Display& shown) {
     try {
         if (kind == Library::FileKind::picture && picture_size(path) != shown.panel.pixels) return false;
@@ -142,8 +143,8 @@ void check_key(std::string_view override_text) {
 
 std::string position(const Vec3d& eye) { return fmt::format("camera.position_mm=[{}]", fmt::join(eye, ", ")); }
 
-// A problem reported for "--set array.gap_mm=99" as "array.gap_mm: is ..." or "diffuser.distance_mm: is missing" is assigned to
-// that key; one of a list's element ("array.offset_mm[0]") to the list.
+// Returns a problem with the key that it is about: one of "--set array.gap_mm=99" that says "array.gap_mm: is ..." or
+// "diffuser.distance_mm: is missing" is assigned to that key; one of a list's element ("array.offset_mm[0]") to the list.
 Problem by_key(Problem problem) {
     constexpr std::string_view option = "--set ";
     if (!problem.where.starts_with(option)) return problem;

@@ -20,40 +20,44 @@ struct Start {
     std::string device = {};  // --device, as RenderOptions has it
 };
 
+/// The served folder. Pages name files by paths relative to it, with '/' between folders.
 class Library {
   public:
-    /// Throws InputError if it is not a folder.
+    /// Throws InputError if `folder` is not a folder.
     Library(Start, std::filesystem::path folder);
 
     const Start& start() const { return start_; }
-    /// The model that is shown with a description unless a page names another: --model, or the description's, or scene_of_objects.
+    /// Returns the model that is shown with a description unless a page names another: --model, the description's, or
+    /// scene_of_objects.
     std::string model(const Display&) const;
 
     enum class FileKind { display, model, picture };
-    /// The file that a page names, inside the folder. Throws InputError if it is outside (.., absolute, links that lead out), is
+    /// Returns the file that a page names. Throws InputError if it is outside the folder (.., absolute, links that lead out), is
     /// not a plain file, does not exist, or is of another kind, by its ending; of descriptions, if it is not meant as one. Errors
-    /// tell nothing of what is in such a file.
+    /// say nothing about the content of such a file.
     std::filesystem::path file(const std::string& name, FileKind) const;
-    /// The file that a page names, to be made. Throws InputError for endings other than .toml.
+    /// Returns the path of a file that a page wants to write. Throws InputError for endings other than .toml, and as file() does.
     std::filesystem::path new_file(const std::string& name) const;
 
-    /// Names of files that a page may name, '/' between folders, sorted: at most 1000, six folders deep, hidden ones left out.
-    /// Descriptions that are not valid are left out, and pictures of other sizes than the panel of `display` has.
+    /// The files that a page may name, sorted: at most 1000, six folders deep.
     struct Files {
         std::vector<std::string> displays, models, pictures;
-        std::map<std::string, Vec3d> eyes_mm;  // of the displays: where their cameras stand
+        std::map<std::string, Vec3d> eyes_mm;  // of the displays: the positions of their cameras
     };
+    /// Returns the files. Hidden ones are left out, as are descriptions that are not valid, and pictures whose size is not that of
+    /// display's panel.
     Files files(const Display& display) const;
 
-    /// The description's file and the overrides for what is wanted: the command line's, the page's, the eye and the size. `eye`:
-    /// -1, 0, 1 for the left one, the middle, the right one. lfdsim render with the same --set gives the same picture.
+    /// A description's file and the overrides with which it is the display that a page wants: the command line's, the page's, the
+    /// eye's position and the picture's size. lfdsim render with the same --set makes the same picture.
     struct Description {
         std::filesystem::path file;
         std::vector<std::string> set;
     };
+    /// Returns the description for an eye: -1 the left one, 0 midway, 1 the right one. Throws InputError.
     Description description(const Wanted&, int eye = 0) const;
-    /// The description, read and validated, without its objects where a model is shown in their place. Throws InputError, which
-    /// names keys where possible ("array.gap_mm").
+    /// Returns that description, read and validated, without its objects where a model is shown in their place. Throws InputError,
+    /// which names keys where possible ("array.gap_mm").
     Display display(const Wanted&, int eye = 0) const;
 
   private:

@@ -14,7 +14,8 @@ namespace lfdsim::view {
 
 double WhiteField::of(const Display& seen, const Geometry& geometry, bool quick, int threads, const std::string& device,
                       const Job& job) {
-    // A white panel with fewer and larger pixels is as white, and made sooner.
+    // A white panel with fewer and larger pixels is as white, and made more quickly. Keys on which the white field does not depend
+    // get one value, so that a change of them does not count as one of `d`.
     Display d = seen;
     d.name.clear();
     d.content.model.clear();

@@ -10,10 +10,12 @@
 
 namespace lfdsim::view {
 
-/// The light that the camera receives from a white panel, by which analysis divides views; kept until its inputs change.
+/// The white field by which views are divided: the mean light of the screen on the axis, of a white panel. It is kept until its
+/// inputs change.
 class WhiteField {
   public:
-    /// More than 0. Quick: from few pixels, accurate to about 1 %. Throws Stopped; InputError where the camera sees no light.
+    /// Returns the white field, more than 0. `quick`: from few pixels, accurate to about 1 %. Throws Stopped; InputError where the
+    /// camera sees no light.
     double of(const Display&, const Geometry&, bool quick, int threads, const std::string& device, const Job&);
 
   private:
@@ -23,15 +25,15 @@ class WhiteField {
 
 struct Compared {
     Image photograph;
-    double ssim;  // of the content, as `lfdsim analyze` measures it; NaN where too little of it is seen
+    double ssim;  // over the content's rectangle, as `lfdsim analyze` measures it; NaN where too little of it is visible
 };
 
-/// `view` is the camera's whole picture; it is divided by `white`. Throws Stopped.
+/// Divides `view`, the camera's whole picture, by `white` and compares it with the reference photograph. Throws Stopped.
 Compared compared(Image& view, double white, const Display&, const Geometry&, const ContentScene&, int threads, const Job&);
 
-/// View minus photograph in sRGB codes, whose differences are about as large as they look: middle grey where both are equal,
-/// lighter where the view is lighter, limited to 127 codes either way. With its sign, blur can be distinguished from ghosts and
-/// from a wrong brightness.
+/// Returns view minus photograph in sRGB codes, whose differences are about as large as they look: 128, middle grey, where both are
+/// equal, more where the view is lighter, limited to 0 and 255. With its sign, blur can be distinguished from ghosts and from a
+/// wrong brightness.
 std::vector<std::uint8_t> difference_codes(const Image& view, const Image& photograph);
 
 }  // namespace lfdsim::view

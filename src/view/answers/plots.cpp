@@ -20,7 +20,7 @@ namespace {
 constexpr std::int64_t picture_width = 320, most_panel_pixels = std::int64_t(7680) * 4320;
 constexpr int angles_each_side = 12, spot_depths = 161, spot_rays = 301;
 
-/// The display, seen from its distance on the axis in small pictures that just contain the panel.
+/// Returns the display with a camera at the same distance on the axis, whose small pictures have the default frame.
 Display small(Display d) {
     const double distance = length(d.camera.position_mm);
     d.camera = {};
@@ -36,11 +36,13 @@ Plot fov_plot(const Display& display, const ContentScene& shown_there, const std
         throw InputError("panel.pixels",
                          fmt::format("{} x {} are too many for this plot, which is limited to 7680 x 4320; use lfdsim analyze fov",
                                      columns, rows));
-    // One at a time for all visitors: each takes all processors and up to two gigabytes.
+    // One plot at a time is made for all visitors: each takes all processors and up to two gigabytes.
     static std::timed_mutex mutex;
     std::unique_lock lock(mutex, std::defer_lock);
     while (!lock.try_lock_for(std::chrono::milliseconds(20)))
         if (job.cancelled()) throw Stopped{};
+    // Angles to a third beyond the theoretical edge, (fov/2) 1.35 + 2 degrees, but only as far as the eye is in front of the
+    // display.
     const Display d = small(display);
     const Geometry g = resolve(d);
     AnalysisOptions options;
@@ -54,6 +56,7 @@ Plot fov_plot(const Display& display, const ContentScene& shown_there, const std
     const double white = subject.white_field(job);
     const auto shown = elemental_panel(d, g, scene, 0, job);
 
+    // The views and their likeness.
     Series of_content{"content", {}, {}}, of_screen{"whole screen", {}, {}};
     for (int k = -angles_each_side; k <= angles_each_side; ++k) {
         const double angle = most * k / angles_each_side;
@@ -77,7 +80,7 @@ Plot spot_plot(const Display& d) {
     const Theory t = theory(d, g);
     const double L = t.central_depth_mm, from_vertex = g.rear_principal_mm - g.vertex_plane_mm;
     const std::vector<FanRay> fan = fans(LensTrace(d, g), {0, 0}, spot_rays).meridional;
-    // To one and a half times the depth of field; where the plane is at infinity, as far as the viewer.
+    // Depths go to one and a half times the depth of field about L; where L is infinite, to twice the viewer's distance.
     const bool finite = std::abs(L) < 1e6;
     const double reach = finite ? std::clamp(0.75 * t.depth_of_field_mm, 0.2 * std::abs(L), 0.95 * std::abs(L)) : 0;
     const double low = finite ? L - reach : 0, high = finite ? L + reach : 2 * d.camera.position_mm[2];

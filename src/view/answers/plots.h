@@ -8,13 +8,14 @@
 
 namespace lfdsim::view {
 
-/// Likeness (SSIM) of the simulated view to the scene against the horizontal angle, from small pictures, with the theoretical field
-/// of view and the angle of the eye. Takes a few seconds at most. Throws InputError for panels of more than 7680 x 4320 pixels,
-/// which would take longer; Stopped where the job is cancelled. `device` is that of renderings, as RenderOptions has it.
+/// Returns the likeness (SSIM) of the simulated view to the scene against the horizontal angle, from small pictures, with the
+/// theoretical field of view and the angle of the eye. It takes a few seconds at most. Throws InputError for panels of more than
+/// 7680 x 4320 pixels, which would take longer; Stopped where the job is cancelled. `device` is that of renderings, as
+/// RenderOptions has it.
 Plot fov_plot(const Display&, const ContentScene&, const std::string& device, const Job&);
 
-/// Width of a panel point's spot, traced through the lens on its axis, against depth from the vertex plane, with the width of a
-/// pixel's image; the central depth plane is marked. Takes milliseconds.
+/// Returns the width of the spot of a panel point on the lens's axis, traced through the lens, against depth from the vertex plane,
+/// with the width of a pixel's image; the central depth plane is marked. It takes milliseconds.
 Plot spot_plot(const Display&);
 
 }  // namespace lfdsim::view

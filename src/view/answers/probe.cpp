@@ -21,7 +21,7 @@ using Number = std::array<std::int64_t, 2>;
 
 constexpr int fan_rays = 5, cone_rays = 65;
 
-/// Direction from the camera through a point of its picture, of unit length.
+/// Returns the unit direction from the camera through a point of its picture.
 Vec3d direction(const optics::RayOrigin& view, Place at) {
     const double right = (at[0] - 0.5) * view.width * view.pixel_mm, up = (0.5 - at[1]) * view.height * view.pixel_mm;
     Vec3d d{};
@@ -29,19 +29,19 @@ Vec3d direction(const optics::RayOrigin& view, Place at) {
     return normalised(d);
 }
 
-/// A point in the array's own axes, from its middle.
+/// Returns a point of the display's frame in the array's frame.
 optics::Vec2<double> in_array(const Lattice<double>& lattice, double x, double y) {
     return optics::to_array(lattice, x - lattice.offset[0], y - lattice.offset[1]);
 }
 
-/// Column, and row from the top, of the lens whose axis is at that point.
+/// Returns the column, and the row from the top, of the lens whose axis is at a point.
 Number lens_of(const Lattice<double>& lattice, const Vec3d& axis) {
     const auto at = in_array(lattice, axis[0], axis[1]);
     const auto lens = optics::lens_at(lattice, at.x, at.y);
     return {std::int64_t(lens.i), std::int64_t(lattice.count[1] - 1 - lens.j)};
 }
 
-/// The pixel at a point of the panel's plane; none beside the panel.
+/// Returns the pixel at a point of the panel's plane, column = floor((x + W/2)/a), row = floor((H/2 - y)/a); none beside the panel.
 std::optional<Number> pixel_of(const Panel& panel, double x, double y) {
     const double column = std::floor(x / panel.pixel_pitch_mm + 0.5 * double(panel.pixels[0]));
     const double row = std::floor(0.5 * double(panel.pixels[1]) - y / panel.pixel_pitch_mm);
@@ -49,7 +49,7 @@ std::optional<Number> pixel_of(const Panel& panel, double x, double y) {
     return Number{std::int64_t(column), std::int64_t(row)};
 }
 
-/// "1.3 mm left of its axis", "1.3 mm left of and 0.2 mm above its axis", "on its axis".
+/// Returns a position relative to a lens's axis in words: "1.3 mm left of and 0.2 mm above its axis", "on its axis".
 std::string off_axis(double x, double y) {
     const auto far = [](double mm) { return std::abs(mm) >= 0.005; };
     const std::string across = fmt::format("{:.2f} mm {} of", std::abs(x), x < 0 ? "left" : "right");
@@ -59,20 +59,21 @@ std::string off_axis(double x, double y) {
     return far(y) ? up + " its axis" : "on its axis";
 }
 
-/// Rays down from the point where the diffuser, if there is one, turns the line of sight; `count` over its vertical angle.
+/// Returns `count` rays down from the point where the line of sight meets the diffuser, spread over its vertical angle; without a
+/// diffuser the line of sight alone.
 std::vector<SideRay> turned(const Display& d, const Geometry& g, const SideRay& sight, int count) {
     if (!g.diffuser_z_mm) return {sight};
     const double z = *g.diffuser_z_mm, half = 0.5 * d.diffuser->angle_deg[1] * degree;
     std::vector<SideRay> rays;
     for (int k = 0; k < count; ++k) {
         const double turn = half * (2. * k / (count - 1) - 1);
-        const double angle = std::clamp(std::atan2(-sight.dy, -sight.dz) + turn, -1.55, 1.55);  // still downwards
+        const double angle = std::clamp(std::atan2(-sight.dy, -sight.dz) + turn, -1.55, 1.55);  // so that the ray goes downwards
         rays.push_back({sight.y_at(z), z, -std::sin(angle), -std::cos(angle)});
     }
     return rays;
 }
 
-/// The part of the panel's height that the diffuser's cone covers, and the number of rows of lenses.
+/// Returns, in words, the part of the panel's height that the diffuser's cone covers, and the number of rows of lenses.
 std::string cone(const Display& d, const Geometry& g, const SideRay& sight) {
     if (!d.diffuser) return "";
     struct PanelSpan {

@@ -12,7 +12,7 @@
 namespace lfdsim::view {
 namespace {
 
-/// A hidden file beside the one to be made; removed in the end.
+/// A hidden file beside the one that is to be made. The destructor removes it.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const std::filesystem::path& path) {
@@ -36,7 +36,8 @@ class TemporaryFile {
         }
         if (fsync(descriptor_) != 0) fail(path_);
     }
-    /// Gives the file its name. Only link() is sure not to replace a file that was made in the meantime.
+    /// Gives the file its final name. Where nothing may be overwritten, link() is used, which never replaces a file that was made
+    /// in the meantime.
     void become(const std::filesystem::path& path, bool overwrite) {
         const int failed = overwrite ? rename(path_.c_str(), path.c_str()) : link(path_.c_str(), path.c_str());
         if (failed && errno == EEXIST)

@@ -40,7 +40,7 @@ Slider ends_of(std::string_view path, const Range& range, double described, cons
     return {0, 4 * (described > 0 ? described : angle ? 1 : 0.25 * d.array.pitch_mm[0]), 0};
 }
 
-/// 1, 2 or 5 times a power of ten, the nearest by ratio.
+/// Returns 1, 2 or 5 times a power of ten, the nearest by ratio.
 double round_step(double about) {
     const double power = std::pow(10, std::floor(std::log10(about)));
     double times = about / power;
@@ -48,9 +48,10 @@ double round_step(double about) {
     return rounded(times * power);
 }
 
-/// The farthest point from `value` towards `end` up to which it holds.
+/// Returns the farthest point from `value` towards `end` up to which `valid` holds: tries the end and two points between, then
+/// bisects. Positions are by ratio where both have the same sign and differ by more than a factor of two.
 double edge(double value, double end, const std::function<bool(double)>& valid) {
-    constexpr int trials = 3, halvings = 12;  // finer than a slider's steps
+    constexpr int trials = 3, halvings = 12;  // 2^-12 of a part is finer than a slider's steps
     if (valid(end)) return end;
     const bool geometric = value * end > 0 && std::abs(std::log2(end / value)) > 1;
     double good = value, bad = end;
@@ -90,6 +91,7 @@ Slider valid_part(Slider slider, double value, bool whole, const std::function<b
     const double width = slider.high - slider.low;
     slider.step = round_step((width > 0 ? width : std::max(std::abs(value), 1e-3)) / 200);
     if (whole) slider.step = std::max(slider.step, 1.);
+    // The ends are rounded inwards to multiples of the step, and one step further where rounding of numbers made them invalid.
     const auto multiple = [&](double end, double inwards) {
         double times = end / slider.step;
         times = inwards > 0 ? std::ceil(times - 1e-9) : std::floor(times + 1e-9);

@@ -19,11 +19,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+// A final picture that takes longer than long_seconds is preceded by a fine one.
 constexpr double coarse_seconds = 0.022, stand_in_seconds = 0.012, long_seconds = 0.15;
-constexpr int picture_copies = 3;  // as rendered, encoded, and waiting to be sent
-constexpr std::array coarse_scales{1., 0.75, 0.6, 0.5, 0.4, 1. / 3, 0.25};
-constexpr std::array panel_divisors{1, 2, 3, 4};
-constexpr double jpeg_cost = 6e-9, png_cost = 25e-9, panel_cost = 30e-9;  // seconds of one core for a pixel; see render_cost()
+constexpr int picture_copies = 3;                                           // as rendered, encoded, and waiting to be sent
+constexpr std::array coarse_scales{1., 0.75, 0.6, 0.5, 0.4, 1. / 3, 0.25};  // of columns and rows of the picture
+constexpr std::array panel_divisors{1, 2, 3, 4};                            // of columns and rows of the panel
+constexpr double jpeg_cost = 6e-9, png_cost = 25e-9, panel_cost = 30e-9;    // seconds of one core for a pixel; see render_cost()
 
 }  // namespace
 
@@ -45,7 +46,7 @@ std::string Drawing::beside_problem() const {
     return can ? "" : "has nothing to photograph: the content shown was not made from a known model";
 }
 
-// The cost of all eyes; photographs beside them add a similar cost, which the pace learns.
+// Returns the cost of all eyes; photographs beside them add a similar cost, which the pace learns.
 double Drawing::coarse_cost(const EyeDisplay& eye, double scale) const {
     const Display d = coarse_view(eye.display, eye.geometry, scale, on_gpu_);
     return double(eyes_.size()) *
@@ -61,10 +62,11 @@ Drawing::LitDisplay Drawing::true_light(const EyeDisplay& eye, Job& job) {
     return {eye, panels_.get(eye.key, eye.made_for, eye.made_for_geometry, threads_, job)};
 }
 
+// Returns the true light where it exists or a coarse panel would not do; else that of a panel with larger pixels.
 Drawing::LitDisplay Drawing::quick_light(const EyeDisplay& eye, Job& job) {
     if (auto light = panels_.find(eye.key)) return {eye, light};
-    if (eye.key.lengths.empty())
-        return true_light(eye, job);  // an image, or a pattern that does not depend on lenses: a coarse one would not resemble it
+    // An image, or a pattern that does not depend on lenses, would not be resembled by one with fewer pixels.
+    if (eye.key.lengths.empty()) return true_light(eye, job);
     if (eye.source.kind == Shown::Kind::model) panels_.scene(eye.source, eye.made_for, eye.made_for_geometry, job);
     const double count = double(eye.display.panel.pixels[0]) * double(eye.display.panel.pixels[1]);
     const auto cost = [&](int k) {
@@ -85,6 +87,8 @@ Drawing::LitDisplay Drawing::quick_light(const EyeDisplay& eye, Job& job) {
     return {*coarse, stand_in_};
 }
 
+// Adds the photograph or difference beside the left eye's picture, and the likeness to both headers. `view` is divided by the white
+// field.
 void Drawing::beside(const LitDisplay& lit, const Display& display, const Geometry& geometry, FrameHeader header, Image& view,
                      Frames& frames, FrameHeader& of_view, Job& job) {
     const auto start = Clock::now();
@@ -95,7 +99,7 @@ void Drawing::beside(const LitDisplay& lit, const Display& display, const Geomet
     const auto claim = panels_.budget().claim("panel.pixels", "a white panel to compare with", texel_bytes(display));
     try {
         white = (rest ? white_ : quick_white_).of(display, geometry, !rest, threads_, library_.start().device, quiet);
-    } catch (const InputError&) {  // no light, no likeness
+    } catch (const InputError&) {  // the camera sees no light of a white panel: there is no likeness
         comparable = false;
     }
     const ContentScene scene = panels_.scene(lit.seen.model, lit.seen.made_for, lit.seen.made_for_geometry, job);

@@ -9,7 +9,7 @@
 namespace lfdsim::view {
 namespace {
 
-/// The model that a panel image was made from, if the description names one.
+/// Returns the model that a panel image was made from, if the description names one.
 std::string described_model(const Display& display) {
     return display.content.objects.empty() ? display.content.model : std::string(scene_of_objects);
 }
@@ -69,7 +69,7 @@ Display coarse_view(Display d, const Geometry& g, double scale, bool on_gpu) {
     d.camera.pixel_filter = PixelFilter::center;
     d.camera.pupil_diameter_mm.reset();
     d.render.estimator = on_gpu ? Estimator::point : Estimator::filtered;
-    // A turned array is rendered with point samples: a single one would show only noise.
+    // Where the display is rendered by points, a single one would show only noise.
     d.render.samples = on_gpu ? 64 : estimator_of(d) == Estimator::filtered ? 1 : 4;
     return d;
 }

@@ -14,11 +14,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// To a hundredth, so that headers stay short.
+// Returns milliseconds to a hundredth, so that headers stay short.
 double ms_since(Clock::time_point start) {
     return std::round(std::chrono::duration<double, std::milli>(Clock::now() - start).count() * 100) / 100;
 }
 
+// Returns the frame: four bytes with the header's length, the header in JSON, the picture's file.
 std::string assembled(const FrameHeader& h, const char* format, Clock::time_point start, const std::string& picture) {
     static constexpr const char* quality[] = {"coarse", "fine", "final"};
     nlohmann::ordered_json json{{"id", h.id},

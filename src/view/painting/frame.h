@@ -10,8 +10,10 @@
 
 namespace lfdsim::view {
 
+/// The quality of a picture, in the order in which a state's pictures are sent.
 enum class Quality { coarse, fine, final };
 
+/// The header of a frame, as far as it does not follow from the picture.
 struct FrameHeader {
     std::int64_t id = 0;
     std::string lane;
@@ -22,11 +24,12 @@ struct FrameHeader {
     std::optional<double> ssim = {};  // NaN is sent as null
 };
 
-/// JPEG, of quality 80 for coarse and 90 for fine, or PNG for final. Throws what the job's advance() throws.
+/// Returns a frame with a JPEG, of quality 80 for coarse and 90 for fine, or a PNG for final. Throws what the job's advance()
+/// throws.
 std::string picture_frame(const FrameHeader&, const Image& light, Job&);
-/// A frame from sRGB codes, three a pixel.
+/// Returns a frame like picture_frame() from sRGB codes, three a pixel.
 std::string codes_frame(const FrameHeader&, const std::vector<std::uint8_t>& codes, Job&);
-/// OpenEXR, with a second picture as the layer "right" where there is one.
+/// Returns a frame with an OpenEXR file, with a second picture as the layer "right" where there is one.
 std::string exr_frame(const FrameHeader&, const Image& light, const Image* right, Job&);
 
 }  // namespace lfdsim::view

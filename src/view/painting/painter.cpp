@@ -20,8 +20,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto settling = 80ms;   // after a change the next one is likely: no long work is started
-constexpr auto standing = 300ms;  // the sharp picture also comes while the mouse button is held without moving
+constexpr auto settling = 80ms;   // after a change another one is likely, so no long work is started
+constexpr auto standing = 300ms;  // after which the sharp picture is made although the page still says `moving`
 constexpr auto poll_outbox = 2ms;
 
 std::vector<std::string> lanes(const Wanted& w) {
@@ -80,16 +80,16 @@ struct Painter::Impl {
     tbb::task_arena arena;
     Drawing drawing;
 
-    mutable std::mutex mutex;  // of what follows
+    mutable std::mutex mutex;  // protects the members up to changed_at
     std::condition_variable changed;
     bool ended = false;
     std::optional<Wanted> wanted;
     std::optional<std::int64_t> exr;
     Clock::time_point changed_at;
 
-    Wanted now;           // what the thread works on; written with the mutex held
-    bool painted = true;  // its work is done
-    bool shown = false;   // a picture of the state has been sent
+    Wanted now;           // the state that the thread works on; written with the mutex held
+    bool painted = true;  // its pictures are done
+    bool shown = false;   // a picture of it has been sent
     std::thread thread;
 };
 
@@ -116,12 +116,13 @@ void Painter::want_exr(std::int64_t id) {
     impl_->changed.notify_all();
 }
 
-/// Waits for something to do; false: the painter is to end.
+/// Waits for something to do; returns false if the painter is to end. A new state is taken when the outbox has sent the pictures
+/// before it.
 bool Painter::Impl::next() {
     std::unique_lock lock(mutex);
     const auto todo = [&] { return ended || (wanted && (wanted->id != now.id || exr)); };
     changed.wait(lock, todo);
-    // The outbox does not notify, so it is polled. What is wanted when it is free again counts.
+    // The outbox does not notify, so it is polled. The state that is wanted when it is free again counts.
     for (;;) {
         if (ended) return false;
         if (wanted->id == now.id) return true;
@@ -139,7 +140,7 @@ bool Painter::Impl::next() {
     return true;
 }
 
-/// Does the work and reports errors; false: it was stopped for something newer.
+/// Does the work and sends errors as problems; returns false if it was stopped for something newer.
 template <class Do>
 bool Painter::Impl::guarded(const Do& what) {
     try {
@@ -171,7 +172,7 @@ void Painter::Impl::run() {
     }
 }
 
-/// Makes the file that is wanted for the current state, if that is still the newest.
+/// Returns the id of the file that is wanted for the current state, if that is painted and still the newest.
 std::optional<std::int64_t> Painter::Impl::asked() const {
     const std::lock_guard lock(mutex);
     return painted && wanted->id == now.id ? exr : std::nullopt;
@@ -190,7 +191,7 @@ void Painter::Impl::paint() {
     send(drawing.final(job));
 }
 
-/// Waits until the state is likely to stay; false: another one was wanted in the meantime.
+/// Waits until the state is likely to stay; returns false if another one was wanted in the meantime.
 bool Painter::Impl::rests() {
     std::unique_lock lock(mutex);
     const auto at = changed_at + (now.moving ? Clock::duration(standing) : Clock::duration(settling));

@@ -11,7 +11,8 @@ namespace lfdsim::view {
 
 class PainterJob : public Job {
   public:
-    /// tell(what, share 0 .. 1) is called from any thread, one at a time, for stages that take longer than a quarter of a second.
+    /// tell(stage, share from 0 to 1) is called from any thread, one at a time, for stages that take longer than a quarter of a
+    /// second, and at most every quarter of a second.
     using Tell = std::function<void(const std::string&, double)>;
     PainterJob(std::function<bool()> cancelled, Tell tell) : cancelled_(std::move(cancelled)), tell_(std::move(tell)) {}
 
@@ -31,8 +32,8 @@ class PainterJob : public Job {
     bool cancelled() const override { return cancelled_(); }
 
   private:
-    static constexpr std::int64_t quiet = 250;  // ms
-    static constexpr int most_told = 100;       // an outbox takes 256 texts
+    static constexpr std::int64_t quiet = 250;  // ms between two calls of tell
+    static constexpr int most_told = 100;       // calls in all: an outbox takes 256 texts
     static std::int64_t now() {
         return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
     }

@@ -21,10 +21,10 @@ namespace {
 
 constexpr std::size_t most_panels = 3, most_scenes = 3, most_models = 2;
 constexpr double most_bytes = 2.0 * (1 << 30);
-constexpr double share_of_reading = 0.5;     // of the memory that is left: pictures of others go on meanwhile
+constexpr double share_of_reading = 0.5;     // of the free memory, for reading a model: pictures of others continue meanwhile
 constexpr double least_for_reading = 512e6;  // half for the process that reads, whose libraries alone map more than 100 MB
 
-/// The first entry for which `is` holds, moved to the front; nullptr if there is none.
+/// Moves the first entry for which `is` holds to the front and returns it; null if there is none.
 template <class Entry, class Is>
 Entry* used(std::list<Entry>& all, const Is& is) {
     const auto found = std::find_if(all.begin(), all.end(), is);
@@ -41,12 +41,14 @@ PanelContent of_file(Shown::Kind kind, const std::string& path) {
     return {kind, path, error ? 0 : std::int64_t(changed), error ? 0 : std::int64_t(bytes)};
 }
 
+/// Whether the panel's light depends on the lenses: elemental images, and patterns that are made for them.
 bool drawn_for_lenses(const PanelContent& source) {
     return source.kind == Shown::Kind::model ||
            (source.kind == Shown::Kind::pattern && (source.name == "view" || source.name == "edge"));
 }
 
-/// Returns all that a posed scene depends on except its files and depth.
+/// Returns everything that a posed scene depends on except its files and its depth; other keys have their defaults, so that a
+/// change of them does not change a panel's key.
 Content pose_of(const Display& d, const Geometry& g) {
     Content pose = d.content;
     const Content fresh;
@@ -107,7 +109,7 @@ PanelKey panel_key(const PanelContent& source, const Display& d, const Geometry&
     key.lengths.insert(key.lengths.end(), shown.begin(), shown.end());
     if (d.content.pickup != PickupKind::nodal)
         key.traced = LensContent{d.content.pickup, d.content.pickup_rays, d.panel, d.lens, d.array};
-    if (d.content.pickup == PickupKind::inverse) {  // it looks through the whole display, from eyes of its own
+    if (d.content.pickup == PickupKind::inverse) {  // it depends on the whole display, but has other eyes than the camera
         key.inverse = d;
         key.inverse->camera.resolution = {};
         if (!d.content.inverse.eyes_mm.empty() || std::isfinite(d.content.viewing_distance_mm))
@@ -145,8 +147,8 @@ double Panels::needed_bytes(const PanelContent& source, const Display& display) 
 
 bool Panels::is_read(const PartsFuture& parts) { return parts.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
 
-/// Drops what nobody uses until so much is free: panels, which are made soonest, then scenes, then the models that they were made
-/// from; those not used for longest first.
+/// Drops contents that are not in use until `bytes` are free: panels, which are made most quickly, then scenes, then the models
+/// that they were made from; of each, those that were not used for longest first.
 void Panels::make_room(double bytes) {
     const auto drop = [&](auto& all, const auto& idle) {
         for (auto one = all.end(); one != all.begin() && !budget_.fits(bytes);)
@@ -240,14 +242,15 @@ ContentParts Panels::parts(const PanelContent& source, const Display& display, J
     }
     try {
         return future.get();
-    } catch (...) {  // the next caller tries again
+    } catch (...) {  // a failed reading is forgotten, so that the next caller tries again
         const std::lock_guard lock(mutex_);
         models_.remove_if([&](const Loaded& l) { return l.source == source; });
         throw;
     }
 }
 
-// A separate process reads each file, in a thread that continues when nobody waits any more: the next caller wants the same ones.
+// Returns the reading of a content's files, which is begun if it is not kept. A separate process reads each file, in a thread that
+// continues when nobody waits any more: the next caller wants the same files.
 Panels::PartsFuture Panels::reading(const PanelContent& source, const Display& display) {
     const std::lock_guard lock(mutex_);
     if (const Loaded* const loaded = used(models_, [&](const Loaded& l) { return l.source == source; })) return loaded->parts;
@@ -258,7 +261,8 @@ Panels::PartsFuture Panels::reading(const PanelContent& source, const Display& d
     };
     auto read = std::make_shared<ReadParts>();
     LoadOptions options;
-    // The process that reads needs as much again. How much that is, is known only then.
+    // The process that reads needs as much memory as its result. How much that is, is known only afterwards, so the most is
+    // claimed.
     make_room(2 * double(options.bytes));
     const double most = std::clamp(share_of_reading * budget_.left(), least_for_reading, 2 * double(options.bytes));
     options.bytes = std::int64_t(most / 2);
@@ -277,7 +281,7 @@ Panels::PartsFuture Panels::reading(const PanelContent& source, const Display& d
     };
     models_.push_front({source, std::async(std::launch::async, std::move(load)).share(), held, files.size()});
     std::size_t count = 0;
-    models_.remove_if([&](const Loaded& l) {  // removing one that is being read would wait for its end
+    models_.remove_if([&](const Loaded& l) {  // the removal of a future would wait for a reading that has not ended
         return ++count > most_models && is_read(l.parts);
     });
     return models_.front().parts;

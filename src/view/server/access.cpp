@@ -29,7 +29,7 @@ struct HostAndPort {
     int port;
 };
 
-/// "name", "name:port", "[IPv6]:port".
+/// Returns the parts of "name", "name:port" or "[IPv6]:port"; the port is 80 where none is given. Nothing for other texts.
 std::optional<HostAndPort> split(std::string_view header) {
     HostAndPort parts{header, 80};
     const bool bracket = header.starts_with('[');
@@ -52,7 +52,7 @@ std::optional<HostAndPort> split(std::string_view header) {
 }  // namespace
 
 std::string make_token() {
-    std::random_device random;  // of the system, with libstdc++ on Linux
+    std::random_device random;  // the system's random numbers, with libstdc++ on Linux
     std::string token;
     for (int k = 0; k < 4; ++k) token += fmt::format("{:08x}", random());
     return token;

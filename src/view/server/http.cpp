@@ -13,7 +13,7 @@ namespace {
 
 std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
-/// The page with a nonce in each element script and style; their contents are not changed.
+/// Returns the page with a nonce in each element script and style; their contents are not changed.
 std::string with_nonce(std::string_view page, const std::string& nonce) {
     std::string text;
     while (true) {
@@ -41,6 +41,7 @@ Response page_response(const std::string& page) {
     return r;
 }
 
+/// Returns a response with the headers that all responses have.
 Response finished(Response r) {
     r.set(http::field::cache_control, "no-store");
     r.set("X-Content-Type-Options", "nosniff");

@@ -1,4 +1,4 @@
-// The server's answer to one HTTP request. Floor 5.
+// The server's answer to one HTTP request, as a pure function of the request. Floor 5.
 #pragma once
 #include "view/server/access.h"
 
@@ -11,11 +11,12 @@ namespace lfdsim::view {
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
-/// A response of one sentence, which ends the connection.
+/// Returns a response of one sentence, which ends the connection.
 Response sentence(boost::beast::http::status, const std::string& text);
 
-/// The response to a request; nothing for a WebSocket that is accepted. In the page, the elements script and style get the nonce
-/// that its Content-Security-Policy requires; no attribute of an element can run anything.
+/// Returns the response to a request; nothing for a WebSocket that is accepted. Requests are refused by their Host, path, method,
+/// token and Origin, in this order. In the page, the elements script and style get the nonce that its Content-Security-Policy
+/// requires; no attribute of an element can run anything.
 std::optional<Response> respond(const Request&, const Gate&, const std::string& token, const std::string& page);
 
 }  // namespace lfdsim::view

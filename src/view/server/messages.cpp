@@ -16,12 +16,13 @@ namespace {
 
 using Parsed = nlohmann::json;
 
-constexpr int deepest_message = 3;  // an object, a list or an object in it, and what is in those
+constexpr int deepest_message = 3;  // levels: an object, a list or an object in it, and one more within those
 constexpr std::size_t longest_text = 1000, most_settings = 100;
 constexpr double farthest_eye_mm = 1e6;
 constexpr std::int64_t largest_id = std::int64_t(1) << 53;  // above this a browser's numbers are not exact
 constexpr std::int64_t least_side = 16, largest_side = 4096;
 
+/// Parses JSON. Depth and keys are checked while it is parsed, before the parser takes memory for more.
 Parsed parse(std::string_view text) {
     if (text.size() > longest_message)
         throw InputError("message", fmt::format("has {} bytes, allowed are {}", text.size(), longest_message));
@@ -40,7 +41,7 @@ Parsed parse(std::string_view text) {
         return Parsed::parse(text, check);
     } catch (const Parsed::parse_error& error) {
         throw InputError("message", fmt::format("is not JSON in UTF-8: byte {} is the first invalid one", error.byte));
-    } catch (const Parsed::exception&) {  // a number too large
+    } catch (const Parsed::exception&) {  // the parser's error for numbers that are too large
         throw InputError("message", "has a number that is not finite");
     }
 }
@@ -56,7 +57,7 @@ double number(const Parsed& json, const std::string& where, double low, double h
 }
 
 std::int64_t whole(const Parsed& json, const std::string& where, std::int64_t low, std::int64_t high) {
-    // json.get() would wrap numbers above 2^63
+    // json.get() would wrap numbers of 2^63 and more.
     const bool fits = json.is_number_integer() && (!json.is_number_unsigned() || json.get<std::uint64_t>() <= std::uint64_t(high));
     if (fits)
         if (const auto value = json.get<std::int64_t>(); value >= low && value <= high) return value;
@@ -77,7 +78,7 @@ std::string text(const Parsed& json, const std::string& where) {
     refuse(where, json, fmt::format("a text of at most {} bytes without control characters", longest_text));
 }
 
-/// The place of a text in a list of words.
+/// Returns the index of a text in a list of words.
 std::size_t choice(const Parsed& json, const std::string& where, std::initializer_list<std::string_view> words) {
     if (json.is_string())
         for (std::size_t i = 0; i < words.size(); ++i)

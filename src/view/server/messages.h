@@ -21,37 +21,37 @@ struct Shown {
     bool operator==(const Shown&) const = default;
 };
 
-enum class Layout { one, pair, crossed };            // pair: left eye's picture on the left
-enum class Beside { none, photograph, difference };  // what else is shown for the same eye
+enum class Layout { one, pair, crossed };            // pair: the left eye's picture is on the left; crossed: on the right
+enum class Beside { none, photograph, difference };  // the further picture for the same eye, if any
 
-/// Everything that a page wants to see. A page sends it whole each time, so nothing is lost when a connection drops.
+/// Everything that a page wants to show. A page sends all of it each time, so nothing is lost when a connection drops.
 struct Wanted {
-    std::int64_t id = 0;           // rises; frames carry it
+    std::int64_t id = 0;           // rises; frames have the id of the state that they show
     std::string display;           // description in the served folder; empty: the one that the program was started with
     std::vector<std::string> set;  // "key=value" as of --set; at most 100
     Shown shown;
-    Vec3d eye_mm{0, 0, 2000};            // between the two eyes where there are two; becomes camera.position_mm
-    std::array<int, 2> size{1280, 720};  // pixels of one picture, 16 .. 4096 each, at most 3840 x 2160 together
+    Vec3d eye_mm{0, 0, 2000};            // of the eye, or midway between two eyes; becomes camera.position_mm
+    std::array<int, 2> size{1280, 720};  // columns and rows of one picture, 16 to 4096 each, most_pixels at most
     Layout layout = Layout::one;
-    double eye_distance_mm = 65;  // 0 .. 1000
+    double eye_distance_mm = 65;  // between two eyes, 0 to 1000
     Beside beside = Beside::none;
-    bool moving = false;  // more is about to come: a coarse picture is enough
+    bool moving = false;  // further states will follow soon: a coarse picture is enough
     bool operator==(const Wanted&) const = default;
 };
 
-/// Whether two are the same, apart from id and `moving`.
+/// Whether two states are the same, apart from id and `moving`.
 inline bool same_state(Wanted a, const Wanted& b) {
     a.id = b.id;
     a.moving = b.moving;
     return a == b;
 }
 
-/// A question about the state that was wanted last; its answer has the same id.
+/// A question about the state that was wanted last; its answer has the same id. Members apply to the questions that they name.
 struct Ask {
     enum class What { probe, side, plot, files, toml, save, exr };
     std::int64_t id = 0;
     What what = What::probe;
-    std::array<double, 2> at{};  // probe: point of the picture, 0 .. 1 from its upper left corner
+    std::array<double, 2> at{};  // probe: point of the picture, 0 to 1 from its upper left corner
     std::string name;            // side: "display" or "lens"; plot: "fov" or "spot"; save: file in the served folder
     bool overwrite = false;      // save
     double width = plot_width;   // plot: pixels
@@ -62,8 +62,8 @@ using Message = std::variant<Wanted, Ask>;
 inline constexpr std::size_t longest_message = 64 << 10;  // bytes
 inline constexpr std::int64_t most_pixels = 3840 * 2160;  // of one picture
 
-/// Throws InputError for anything that is not exactly a message: unknown keys, wrong types, numbers that are not finite or out of
-/// range, text that is too long or too deep, or not UTF-8.
+/// Parses a message. Throws InputError for anything that is not exactly one: keys that are unknown, missing or given twice, wrong
+/// types, numbers that are not finite or out of range, text that is too long or too deep, or not UTF-8.
 Message parse_message(std::string_view);
 
 }  // namespace lfdsim::view

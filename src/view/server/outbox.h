@@ -1,4 +1,4 @@
-// Accepts messages to a browser, which wait until its connection can send them. Floor 5.
+// The interface by which a visitor's threads send messages to its browser. Floor 5.
 #pragma once
 #include <string>
 
@@ -10,9 +10,9 @@ class Outbox {
     virtual ~Outbox() = default;
     /// Sends a JSON text. Texts that have not been sent yet wait in order; more than 256 of them, or 4 MiB, end the connection.
     virtual void text(std::string json) = 0;
-    /// Sends a binary message. It replaces one of the same lane that has not been sent yet, so frames never queue.
+    /// Sends a binary message. It replaces a message of the same lane that has not been sent yet, so frames never queue.
     virtual void frame(const std::string& lane, std::string bytes) = 0;
-    /// Whether a frame of that lane is being sent or waits, so that the next one need not be made yet.
+    /// Whether a frame of a lane is being sent or waits; if so, the next one need not be made yet.
     virtual bool busy(const std::string& lane) const = 0;
 };
 

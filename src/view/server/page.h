@@ -4,8 +4,8 @@
 
 namespace lfdsim::view {
 
-/// UTF-8. It has one element <style> and one <script type="module">, both without further attributes, and no markup with style or
-/// event attributes: a Content-Security-Policy can allow just these two by hash or nonce.
+/// Returns the page in UTF-8. It has one element <style> and one <script type="module">, both without further attributes, and no
+/// markup with style or event attributes: a Content-Security-Policy can allow just these two by hash or nonce.
 std::string page();
 
 }  // namespace lfdsim::view

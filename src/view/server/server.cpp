@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr std::size_t most_header_bytes = 32 << 10;  // includes the cookies of all other servers of this machine
+constexpr std::size_t most_header_bytes = 32 << 10;  // which include the cookies of all other servers of this machine
 constexpr std::size_t most_callers = 256;            // connections that are not yet a WebSocket; one more ends the oldest
 constexpr std::size_t most_turned_away = 32;         // connections that are being sent a refusal
 constexpr auto request_time = 5s;                    // for a whole request, and for its answer
@@ -49,7 +49,9 @@ using Callers = std::list<std::shared_ptr<Caller>>;
 
 }  // namespace
 
-/// All except the constructor, the destructor and counts() runs on one network thread, which never waits.
+/// Everything except the constructor, the destructor and counts() runs on one network thread, which never waits. A connection is a
+/// Caller until its request has been read: read() -> answer() -> drain() -> end(), or read() -> upgrade(), which makes a Session of
+/// it.
 struct Server::Impl {
     Impl(ServerOptions, std::string page_text, std::function<std::unique_ptr<Visitor>(Outbox&)>);
 
@@ -98,6 +100,8 @@ void Server::Impl::listen() {
         throw InputError("--port", fmt::format("cannot listen on {} port {}: {}", options.host, options.port, error.message()));
 }
 
+/// Accepts connections, one after the other. Where there are too many callers or no descriptors, the oldest caller ends; where that
+/// is no remedy, it pauses.
 void Server::Impl::accept() {
     acceptor.async_accept([this](error_code error, tcp::socket socket) {
         if (!acceptor.is_open()) return;
@@ -146,7 +150,8 @@ void Server::Impl::answer(const std::shared_ptr<Caller>& caller, Response respon
     });
 }
 
-/// Closing with bytes unread would reset the connection, and the browser might lose the answer.
+/// Reads and ignores what a caller still sends: closing with unread bytes would reset the connection, and the browser might lose
+/// the answer.
 void Server::Impl::drain(const std::shared_ptr<Caller>& caller) {
     caller->stream.async_read_some(caller->buffer.prepare(4096), [this, caller](error_code error, std::size_t) {
         if (error) return end(caller);
@@ -159,6 +164,7 @@ void Server::Impl::end(const std::shared_ptr<Caller>& caller) {
     callers.remove(caller);
 }
 
+/// Makes a visitor of a caller. With too many visitors it becomes a session that is only sent the reason.
 void Server::Impl::upgrade(const std::shared_ptr<Caller>& caller) {
     const bool full = int(visitors.size()) >= options.most_visitors;
     if (full) ++tally.refused;
@@ -190,7 +196,7 @@ void Server::Impl::stop() {
 Server::Server(ServerOptions options, std::string page, Session::Connect connect)
     : impl_(std::make_unique<Impl>(std::move(options), std::move(page), std::move(connect))) {}
 
-// Sessions count as work of the io_context until their visitors are gone, so that the network thread ends last.
+// Sessions count as work of the io_context until their visitors have been destroyed, so that the network thread ends last.
 Server::~Server() {
     net::post(impl_->context, [this] { impl_->stop(); });
     impl_->thread.join();

@@ -21,10 +21,10 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto between_messages = 2ms, credit = 1000ms;  // on average 500 messages a second; 500 at once after a quiet second
+constexpr auto between_messages = 2ms, credit = 1000ms;  // 500 messages a second on average; 500 at once after a second without any
 constexpr int most_malformed = 100;
 constexpr int most_unsent_bytes = 128 << 10;
-constexpr std::size_t fragment_bytes = 64 << 10;  // pings and pongs can be sent between the fragments of a long frame
+constexpr std::size_t fragment_bytes = 64 << 10;  // of a long frame: pings and pongs can be sent between fragments
 
 std::string error_text(const std::string& what) {
     return nlohmann::ordered_json{{"type", "error"}, {"what", what}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -39,8 +39,7 @@ Session::Session(boost::beast::tcp_stream stream, const ServerOptions& options, 
       tally_(tally),
       gone_(std::move(gone)),
       pause_(socket_.get_executor()) {
-    // Unsent data should wait in the mailbox, where a newer frame can replace it, rather than in the kernel: limit the latter's
-    // share.
+    // Unsent data should wait in the mailbox, where a newer frame can replace it, not in the kernel, whose part is limited.
     setsockopt(boost::beast::get_lowest_layer(socket_).socket().native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent_bytes,
                sizeof most_unsent_bytes);
 }
@@ -116,7 +115,7 @@ void Session::received() {
     buffer_.consume(buffer_.size());
 }
 
-/// Sends the mailbox's next item, unless one is being sent, and goes on until the mailbox is empty.
+/// Sends the mailbox's next item, unless one is being sent, and continues until the mailbox is empty.
 void Session::write() {
     if (sending_ || closing_ || ended_) return;
     sending_ = mailbox_.next();
@@ -164,7 +163,7 @@ void Session::end() {
         });
 }
 
-/// The visitor's thread.
+/// Runs the visitor's thread: makes the visitor, passes it messages, and destroys it when the session has ended.
 void Session::visit(const Connect& connect) {
     std::unique_ptr<Visitor> visitor;
     try {
@@ -190,7 +189,7 @@ void Session::visit(const Connect& connect) {
     });
 }
 
-/// Waits for a message; nothing when the session ends. On the visitor's thread.
+/// Waits for a message, on the visitor's thread; returns nothing when the session ends.
 std::optional<std::string> Session::take() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return over_ || message_; });

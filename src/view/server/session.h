@@ -26,9 +26,9 @@ struct Tally {
     std::atomic<long> visitors{0}, refused{0}, malformed{0}, messages{0}, frames_sent{0}, frames_dropped{0};
 };
 
-/// Two threads share a session:
+/// A session is shared by two threads:
 /// - The network thread, one for all sessions, does all reading and writing and never waits for a visitor.
-/// - The session's own thread, visit(), makes the visitor, passes it each message, and destroys it.
+/// - The session's thread, visit(), makes the visitor, passes it each message, and destroys it.
 ///
 /// Messages: read() -> received() puts one into message_ -> take() gives it to the visitor -> read() again, when the visitor has
 /// returned and not before due_, which limits the rate. So there is never more than one message waiting.
@@ -36,7 +36,7 @@ struct Tally {
 /// at a time, each when the one before has been sent.
 /// End: end() closes the connection at once, finish() after the waiting texts have been sent. Both let take() return nothing, so
 /// that visit() ends; gone_ is then called.
-/// Handlers hold a shared pointer, so a session lives until its last handler is done.
+/// Handlers hold a shared pointer, so a session exists until its last handler is done.
 class Session : public Outbox, public std::enable_shared_from_this<Session> {
   public:
     using Connect = std::function<std::unique_ptr<Visitor>(Outbox&)>;
@@ -44,10 +44,10 @@ class Session : public Outbox, public std::enable_shared_from_this<Session> {
     /// `gone` is called once, on the network thread, after the visitor has been destroyed. The options must outlive the session.
     Session(boost::beast::tcp_stream, const ServerOptions&, Tally&, std::function<void()> gone);
 
-    // To be called on the network thread.
+    // These are called on the network thread.
     void welcome(const Request&, Connect);                   // accepts the WebSocket and starts the visitor's thread
     void turn_away(const Request&, const std::string& why);  // accepts it, sends the message "error" with `why`, and closes it
-    void end();                                              // closes it at once
+    void end();                                              // closes the connection at once
 
     void text(std::string json) override;
     void frame(const std::string& lane, std::string bytes) override;
@@ -66,7 +66,7 @@ class Session : public Outbox, public std::enable_shared_from_this<Session> {
     template <class Work>
     void post(Work);
 
-    boost::beast::websocket::stream<boost::beast::tcp_stream, false> socket_;  // pictures are compressed already
+    boost::beast::websocket::stream<boost::beast::tcp_stream, false> socket_;  // false: no compression, which pictures have already
     boost::asio::executor_work_guard<boost::beast::tcp_stream::executor_type> work_;
     const ServerOptions& options_;
     Tally& tally_;

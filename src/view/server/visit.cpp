@@ -9,7 +9,7 @@
 namespace lfdsim::view {
 namespace {
 
-// Whether controls and figures stay the same: everything else (eye, size, layout) affects only the command.
+// Whether two states have the same controls and figures: everything else (eye, size, layout) affects only the command.
 bool same_controls(const Wanted& a, const Wanted& b) { return a.display == b.display && a.set == b.set && a.shown == b.shown; }
 
 Json hello(const Library& library, const std::string& version) {
@@ -91,7 +91,7 @@ void Visit::message(std::string_view text) {
 void Visit::want(const Wanted& wanted) {
     wanted_ = wanted;
     painter_.want(wanted);
-    // This takes milliseconds that a picture could use: while the eye moves the command is not updated.
+    // The message "resolved" takes milliseconds that a picture could use: while the eye moves, the command is not updated.
     if (told_ && (wanted.moving ? same_controls(*told_, wanted) : same_state(*told_, wanted))) return;
     told_ = wanted;
     outbox_.text(resolved(library_, wanted).dump());

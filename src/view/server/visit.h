@@ -12,11 +12,11 @@
 
 namespace lfdsim::view {
 
-/// A thread that answers one question at a time, always the newest: plots take seconds.
+/// A thread for plots, which take seconds. It answers one question at a time, always the newest; one that is replaced is stopped.
 class Answerer {
   public:
     Answerer(const Library&, Panels&, Outbox&);
-    ~Answerer();  // stops at once
+    ~Answerer();  // stops the work
     void ask(const Wanted&, const Ask&);
 
   private:
@@ -32,6 +32,7 @@ class Answerer {
     std::thread thread_;
 };
 
+/// One visitor: its last state, its painter and its thread for plots.
 class Visit : public Visitor {
   public:
     /// Sends the message "hello". `version` is the program's. All references must outlive the visit.
