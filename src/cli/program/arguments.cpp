@@ -17,7 +17,8 @@ namespace {
     throw InputError(std::string(option), fmt::format("\"{}\" is not possible; {}", shortened(given), allowed));
 }
 
-// from_chars: no locale, no leading blanks or plus sign, no hexadecimal or octal surprises.
+// Returns the number that the whole text is. from_chars() has no locale and accepts no leading blanks, plus sign, or hexadecimal or
+// octal forms.
 template <class T>
 std::optional<T> whole_text(std::string_view text) {
     T value{};
@@ -31,7 +32,7 @@ std::optional<double> finite(std::string_view text) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// What to write in place of "20,5" and "20mm".
+// Returns what to write in place of "20,5" and "20mm".
 std::string number_hint(std::string_view text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -94,7 +95,7 @@ std::array<std::int64_t, 2> size(std::string_view option, std::string_view text)
         const auto columns = whole(parts[0]), rows = whole(parts[1]);
         if (columns && rows && *columns > 0 && *rows > 0) return {*columns, *rows};
     }
-    // Upper limits are the description's: these values become overrides of its keys.
+    // Upper limits are those of the description, whose keys these values override.
     refuse(option, text, fmt::format("give columns x rows, such as {}", option == "--grid" ? "9x9" : "1920x1080"));
 }
 

@@ -12,28 +12,29 @@
 
 namespace lfdsim::cli {
 
-// All throw InputError that names the option, what was given and what is allowed. An Option reads itself; these are for parts of a
-// value, and for values of a list.
+// All functions throw InputError that names the option, what was given and what is allowed. An Option reads its value with them;
+// calls elsewhere are for parts of a value, and for values of a list.
 
-/// "12", "-0.5", "1e3".
+/// Parses a finite number: "12", "-0.5", "1e3".
 double number(std::string_view option, std::string_view text);
 
-/// "100", "1e3"; low .. high, both allowed.
+/// Parses a whole number from low to high, both allowed: "100", "1e3".
 std::int64_t whole_number(std::string_view option, std::string_view text, std::int64_t low, std::int64_t high);
 
-/// Parses as many numbers, separated by commas, as the example has: "0,-300,1800". `form` names them: "FROM,TO,STEP".
+/// Parses numbers separated by commas, the same number of them as the example has: "0,-300,1800". `form` names them:
+/// "FROM,TO,STEP".
 std::vector<double> numbers(std::string_view option, std::string_view text, std::string_view example, std::string_view form = {});
 
-/// "3840x2160": columns and rows, each 1 or more.
+/// Parses columns and rows, each 1 or more: "3840x2160".
 std::array<std::int64_t, 2> size(std::string_view option, std::string_view text);
 
-/// "X0,Y0,X1,Y1": columns X0 .. X1-1 and rows Y0 .. Y1-1 of a frame of width x height pixels; at least one pixel.
+/// Parses "X0,Y0,X1,Y1", columns X0 to X1-1 and rows Y0 to Y1-1 of a frame of width x height pixels; at least one pixel.
 Rect rectangle(std::string_view option, std::string_view text, std::int64_t width, std::int64_t height);
 
 /// Parses one of the words `allowed`.
 std::string word(std::string_view option, std::string_view text, const std::vector<std::string>& allowed);
 
-/// Runs the parts of reading a command line and gathers what is wrong with each, so that all of it is told at once.
+/// Runs the parts of reading a command line and collects the faults of each, so that all are reported at once.
 class Faults {
   public:
     template <class Part>
@@ -49,7 +50,7 @@ class Faults {
     void of(const Option& option, Part part) {
         if (!option.empty()) of(part);
     }
-    /// Throws InputError if anything was wrong.
+    /// Throws InputError with all faults, if there are any.
     void report() const {
         if (!all_.empty()) throw InputError(all_);
     }

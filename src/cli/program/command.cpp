@@ -8,6 +8,7 @@
 namespace lfdsim::cli {
 namespace {
 
+// Collects what usage_error() needs about a command line that CLI11 refused.
 Misuse misuse(const CLI::App& program, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     const CLI::App& command = chosen.empty() ? program : *chosen.front();
@@ -22,7 +23,7 @@ Misuse misuse(const CLI::App& program, const CLI::ParseError& error) {
     return all;
 }
 
-// "--camera-mm 40 0 599", which CLI11 would take for a value and two more files. `words`: last one first.
+// Refuses "--camera-mm 40 0 599", which CLI11 would take for a value and two more files. `words` are in reverse order.
 void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
     std::reverse(words.begin(), words.end());
     const auto commands = [&](const std::string& word) {

@@ -15,10 +15,10 @@ class Option;
 
 namespace lfdsim::cli {
 
-/// The words of an option or a positional argument on the command line. Copies refer to the same ones.
+/// The words of an option or a positional argument on the command line. Copies refer to the same words.
 class Given {
   public:
-    bool given() const;                                // even if its text is empty
+    bool given() const;                                // also with an empty text
     const std::string& name() const { return name_; }  // as messages have it: "--output"
 
   protected:
@@ -26,22 +26,22 @@ class Given {
     std::string name_, form_;
 };
 
-/// An option with one value. What reads it as a number, a size or a word takes nothing but the whole text, and throws InputError
-/// that names the option, what was given and what is allowed (arguments.cpp).
+/// An option with one value. The functions that read it as a number, a size or a word accept nothing but the whole text, and throw
+/// InputError that names the option, what was given and what is allowed (arguments.cpp).
 class Option : public Given {
   public:
     Option required() const;
-    Option initially(const std::string& text) const;  // the value where none is given
-    Option shown() const;                             // help shows that value
+    Option initially(const std::string& text) const;  // sets the value where none is given
+    Option shown() const;                             // makes help show that value
 
     const std::string& text() const { return *text_; }
     bool empty() const { return text_->empty(); }
 
     double number() const;
     std::int64_t whole_number(std::int64_t low, std::int64_t high) const;
-    std::vector<double> numbers(const std::string& example) const;  // as many as the example has
+    std::vector<double> numbers(const std::string& example) const;  // the same number of them as the example has
     std::array<std::int64_t, 2> size() const;
-    std::string word() const;  // one of those that help shows: "flat|smooth"
+    std::string word() const;  // one of the words that help shows: "flat|smooth"
 
   private:
     friend class Command;
@@ -71,22 +71,22 @@ class Flag {
     std::shared_ptr<bool> given_ = std::make_shared<bool>(false);
 };
 
-/// A command; a handle as above.
+/// A handle of a command, whose copies refer to the same command.
 class Command {
   public:
     explicit Command(CLI::App* app) : app_(app) {}
 
-    // A new option, in the order of help. A name without dashes is that of a positional argument. `form` is what help shows as the
-    // value: "X,Y", "flat|smooth"; "" for nothing.
+    // These add an option, in the order of help. A name without dashes is that of a positional argument. `form` is what help shows
+    // as the value: "X,Y", "flat|smooth"; "" for nothing.
     Option option(const std::string& names, const std::string& form, const std::string& help) const;
     List list(const std::string& names, const std::string& form, const std::string& help) const;
     Flag flag(const std::string& names, const std::string& help) const;
-    /// The command gets no options, not even --help: all words that follow it are its own, and words() has them when it runs.
+    /// Makes the command one without options, even --help: words() has all words that follow it when it runs.
     void take_all_words() const;
     std::vector<std::string> words() const;
 
     std::string name() const;
-    /// Queries of an option by its name with dashes: whether the command has it, whether it was given, and with which words.
+    // These query an option by its name with dashes: whether the command has it, whether it was given, and with which words.
     bool knows(const std::string& option) const;
     bool given(const std::string& option) const;
     std::vector<std::string> values(const std::string& option) const;
@@ -95,15 +95,16 @@ class Command {
     CLI::App* app_;
 };
 
-/// A command, as help and the command line know it.
+/// A command as commands.h lists it.
 struct CommandSpec {
     const char *name, *summary;
     std::string examples = {};  // the end of its help
-    /// Adds the options to the command, and returns what is done once they have been read.
+    /// Adds the options to the command, and returns the function that is called once they have been read.
     std::function<std::function<void()>(Command)> run;
 };
 
-/// Makes a CommandSpec::run of a struct of options, which is made of the command, and a function that uses it.
+/// Returns a CommandSpec::run that makes a struct of options, whose members add themselves to the command, and runs a function with
+/// it.
 template <class Arguments>
 std::function<std::function<void()>(Command)> with_options(void (*run)(const Arguments&)) {
     return [run](Command command) { return [run, args = Arguments{command}] { run(args); }; };

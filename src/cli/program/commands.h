@@ -1,11 +1,11 @@
-// The commands of lfdsim. Floor 5.
+// The list of the commands of lfdsim. Floor 5.
 #pragma once
 #include "cli/program/command.h"
 
 namespace lfdsim::cli {
 
-// A line for each command, in the order of help. The file commands/NAME.cpp defines NAME_command(). What a command throws becomes
-// the exit code: see main.cpp.
+// The macro has a line for each command, in the order of help. The file commands/NAME.cpp defines NAME_command(). The exit code
+// follows from the exception that a command throws: see main.cpp.
 #define LFDSIM_COMMANDS(COMMAND) \
     COMMAND(new)                 \
     COMMAND(import)              \

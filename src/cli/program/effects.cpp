@@ -10,12 +10,13 @@
 namespace lfdsim::cli {
 namespace {
 
-/// A rule for options, or for their values ("--device cuda": all that start so). It is for the commands that have both options.
+/// A rule for options, or for values of options ("--device cuda": all values that begin with "cuda"). It applies to the commands
+/// that have both options.
 struct Rule {
-    std::vector<std::string_view> idle;
-    std::string_view beside;
+    std::vector<std::string_view> idle;  // options that have no effect ...
+    std::string_view beside;             // ... with this one (contradictions), or without it (belongings)
     std::string_view why;
-    std::string_view but_for = {};  // a command that it is not for
+    std::string_view but_for = {};  // a command to which it does not apply
 };
 
 constexpr std::string_view
@@ -30,7 +31,7 @@ const std::vector<Rule>& contradictions() {
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg"},
          "--views",
          "views are placed by --focus-depth-mm and --focus-width-mm, and cannot be rotated; give those"},
-        // The viewer can photograph the model beside such a panel, or show it in place of that.
+        // Not for the viewer, which can photograph the model beside such a panel, or show it in place of the panel.
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--panel-image",
          "a panel image is shown unchanged; give the first to lfdsim eia, which makes panel images of a model",

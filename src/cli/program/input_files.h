@@ -1,4 +1,4 @@
-// The files that a command reads, so that it writes over none of them. Floor 5.
+// The files that a command reads, which it must not overwrite. Floor 5.
 #pragma once
 #include "image/image.h"
 
@@ -7,14 +7,14 @@
 
 namespace lfdsim::cli {
 
-/// Remembers a file that the command reads, as `what` ("the description"). To be called before outputs are checked.
+/// Remembers a file that the command reads, as `what` ("the description"). It must be called before outputs are checked.
 void remember_input(const std::string& what, const std::filesystem::path&);
 
-/// Throws InputError that names both if `output` is one of those files, under whatever name: a hard or symbolic link is the same
-/// file.
+/// Throws InputError that names both if `output` is one of the remembered files, under whatever name: a hard or symbolic link is
+/// the same file.
 void refuse_input(const std::filesystem::path& output);
 
-/// Warns of a picture whose light may be codes.
+/// Warns about a picture whose light may be codes (image/compare/above_white.h).
 void warn_above_white(const std::string& path, const Image&);
 
 }  // namespace lfdsim::cli

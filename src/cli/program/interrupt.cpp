@@ -11,12 +11,12 @@
 namespace lfdsim::cli {
 namespace {
 
-// Read by the handler: lock-free, and the text is complete before the pointer to it is set.
+// The handler reads these, so they are lock-free, and the text is complete before the pointer to it is set.
 std::atomic<int> signals{0}, heeded{0};
 std::atomic<const char*> partial_file{nullptr};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
 
-// Only calls that are safe in a signal handler.
+// A signal handler, which may make few calls only.
 extern "C" void on_signal(int) {
     if (signals.fetch_add(1) == 0 && heeded > 0) return;
     if (const char* file = partial_file) unlink(file);
@@ -32,8 +32,8 @@ void catch_signals() {
     action.sa_flags = SA_RESTART;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-    if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup had it ignored: so it stays
-    // A closed pipe and a file beyond `ulimit -f` are errors of writing, told like any other.
+    if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // under nohup it remains ignored
+    // A closed pipe and a file beyond `ulimit -f` are errors of writing, reported like any other.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
 }

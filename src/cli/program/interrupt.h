@@ -1,4 +1,4 @@
-// Ctrl-C, SIGTERM and SIGHUP. Floor 5.
+// The signals that end the program: Ctrl-C, SIGTERM and SIGHUP. Floor 5.
 #pragma once
 #include <filesystem>
 
@@ -6,18 +6,18 @@ namespace lfdsim::cli {
 
 inline constexpr int interrupted_exit = 130;
 
-/// The work was stopped by the user and what is complete has been dealt with; exit code 130.
+/// The exception of work that a signal stopped, thrown when the completed part has been saved or dropped; exit code 130.
 struct Interrupted {};
 
-/// Makes signals end the program at once with exit code 130, its partial file removed.
+/// Makes signals end the program at once with exit code 130, and remove its partial file.
 void catch_signals();
 
-/// Guards a file that will be written: a signal that ends the program removes what is partly written beside it. Throws InputError
-/// if the command reads that very file.
+/// Guards a file that will be written: a signal that ends the program removes its partial file. One file is guarded at a time, the
+/// last one. Throws InputError if the command reads that file.
 void guard_output(const std::filesystem::path&);
 
-/// While one of these lives, the first signal only makes interrupted() true, so that the work can end in order; the second ends
-/// the program.
+/// While an object of this class exists, the first signal only makes interrupted() true, so that the work can end in order; the
+/// second ends the program.
 class HeedSignals {
   public:
     HeedSignals();
@@ -26,6 +26,7 @@ class HeedSignals {
     HeedSignals& operator=(const HeedSignals&) = delete;
 };
 
+/// Whether a signal has been received.
 bool interrupted();
 
 }  // namespace lfdsim::cli

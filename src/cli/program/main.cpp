@@ -23,8 +23,8 @@ namespace {
 
 using namespace lfdsim;
 
-/// A message of the log. File names, keys and what files say come from others: none of it is obeyed by a terminal, and none is
-/// endless.
+/// A message of the log. It may quote names and contents of files, so characters that control a terminal are escaped, and its
+/// length is bounded.
 class LogMessage : public spdlog::custom_flag_formatter {
   public:
     void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& to) override {
@@ -55,14 +55,14 @@ void run(int argc, char** argv) {
     for (const std::string& reason : gpus_given_up()) spdlog::warn("{}; the CPU continued", reason);
 }
 
-/// The exit code.
+/// Returns the exit code of the work, and logs its errors.
 int run_and_tell(const std::function<int()>& work) {
     try {
         return work();
     } catch (const cli::Interrupted&) {
         return cli::interrupted_exit;
     } catch (const InputError& error) {
-        if (cli::interrupted()) return cli::interrupted_exit;  // a reader that the signal stopped, too
+        if (cli::interrupted()) return cli::interrupted_exit;  // the signal has also stopped a process that reads a model
         for (const Problem& p : error.problems) spdlog::error("{}", p.where.empty() ? p.what : p.where + ": " + p.what);
         return 2;
     } catch (const std::bad_alloc&) {

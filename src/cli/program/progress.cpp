@@ -11,7 +11,7 @@ namespace {
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-// One write, so that lines of several programs do not mix. Nothing can be done about a closed standard error.
+// Writes a text with one call, so that lines of several programs do not mix. A closed standard error is ignored.
 void to_stderr(const std::string& text) { [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size()); }
 
 }  // namespace
@@ -31,7 +31,7 @@ void Progress::stage(std::string_view name, std::int64_t units) {
     shown_tenths_ = 0;
 }
 
-// Threads that find another one showing go on with their work: the next report will count theirs.
+// A thread that finds another one showing continues its work: the next report will count it.
 void Progress::advance(std::int64_t units) {
     const std::int64_t done = done_ += units;
     if (style_ == "none") return;
@@ -45,7 +45,7 @@ void Progress::end() {
 }
 
 void Progress::show(std::int64_t done, bool last) {
-    // Seconds between reports: a bar is to move smoothly, lines in a log are to stay few.
+    // Reports are some time apart: a bar moves smoothly, and lines in a log remain few, at most one for each tenth of the work.
     const Clock::time_point now = Clock::now();
     const double share = double(std::min(done, units_)) / double(units_), spent = seconds(now - begun_),
                  since = seconds(now - shown_);

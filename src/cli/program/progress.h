@@ -10,18 +10,18 @@
 
 namespace lfdsim::cli {
 
-/// Shows stages as a bar that is redrawn (on a terminal), as plain lines now and then, or as lines of JSON; stops the work when the
-/// user asks for it. One at a time.
+/// Shows stages as a bar that is redrawn (on a terminal), as lines of text at least three seconds apart, or as lines of JSON; stops
+/// the work after a signal. There may be one at a time.
 class Progress : public Job {
   public:
-    /// `style`: auto | bar | lines | json | none. auto: a bar on a terminal, else lines.
+    /// `style` is auto, bar, lines, json or none; auto is a bar on a terminal, else lines.
     explicit Progress(const std::string& style);
     ~Progress() override;
 
     void stage(std::string_view name, std::int64_t units) override;
     void advance(std::int64_t units) override;
     bool cancelled() const override { return interrupted(); }
-    /// Shows how far the last stage came, and ends its line.
+    /// Shows what the last stage reached, and ends its line.
     void end();
 
   private:
@@ -34,7 +34,7 @@ class Progress : public Job {
     std::int64_t units_ = 0;
     std::mutex showing_;
     Clock::time_point begun_, shown_;
-    std::int64_t shown_tenths_ = 0;  // of the work, when it was last shown
+    std::int64_t shown_tenths_ = 0;  // tenths of the work that were done when it was last shown
 };
 
 }  // namespace lfdsim::cli

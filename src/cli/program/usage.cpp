@@ -22,10 +22,10 @@ bool is_option(const std::string& text) {
     return text.size() > 1 && text[0] == '-' && !std::isdigit(static_cast<unsigned char>(text[1]));
 }
 
-// Options that may be given again and again: which words after one's value are further values, with no need to repeat its name.
+// An option that may be repeated, and after whose value further words may be values, without the option's name before them.
 struct Repeated {
     std::string_view option;
-    bool (*takes)(const std::string&);
+    bool (*takes)(const std::string&);  // whether a word is such a value
 };
 constexpr Repeated repeated[] = {
     {"--set", is_setting},
@@ -44,7 +44,7 @@ std::string is_display(const std::string& word) {
                                    : "";
 }
 
-// Dashes are left out of the comparison, as all options have them.
+// Returns the option that was probably meant. Dashes are left out of the comparison, as all options have them.
 std::string option_suggestion(const std::string& given, const std::vector<std::string>& options) {
     std::vector<std::string> names;
     for (const std::string& name : options)
@@ -56,10 +56,10 @@ std::string option_suggestion(const std::string& given, const std::vector<std::s
     return near.empty() ? "" : near.substr(0, name) + "--" + near.substr(name);
 }
 
-// Of the numbers in a value that help calls "X,Y,Z" or "WxH".
+// Returns what separates the numbers in a value that help calls "X,Y,Z" or "WxH".
 char separator(const std::string& form) { return form == "WxH" || form == "CxR" ? 'x' : ','; }
 
-// CLI11's own words, where they can be understood.
+// Returns CLI11's message, in other words where it is about the number of values.
 std::string reworded(const Misuse& misuse) {
     if (!misuse.number_of_values) return misuse.says;
     const bool many = misuse.says.find("At Most") != misuse.says.npos;
@@ -119,8 +119,8 @@ InputError usage_error(const Misuse& misuse) {
     std::vector<Problem> unknown, superfluous;
     for (const std::string& word : misuse.unplaced) {
         const std::string name = word.substr(0, word.find('='));
-        if (!chosen && !superfluous.empty()) break;  // what follows is of the command, whichever that is
-        if (word == "--") continue;                  // takes no place itself; CLI11 keeps it with what it could not place
+        if (!chosen && !superfluous.empty()) break;  // the words after an unknown command belong to it
+        if (word == "--") continue;                  // CLI11 counts it among the words that it could not place
         if (is_option(word) && std::find(misuse.options.begin(), misuse.options.end(), name) != misuse.options.end())
             unknown.push_back({name, "is in the wrong place; options come after the command and before any --"});
         else if (is_option(word))
@@ -138,7 +138,7 @@ InputError usage_error(const Misuse& misuse) {
                  fmt::format("unknown command{}{}; commands are {}", is_display(superfluous.front().where),
                              suggestion(superfluous.front().where, misuse.commands), fmt::join(misuse.commands, ", "))});
     }
-    // Values of unknown options are left over too, so superfluous words are told only where no unknown option explains them.
+    // Values of unknown options are left over, too, so superfluous words are reported only where no unknown option explains them.
     if (problems.empty()) problems = superfluous;
     if (problems.empty()) problems.push_back({"", reworded(misuse)});
     problems.back().what += fmt::format(" (help: lfdsim{}{} --help)", chosen ? " " : "", misuse.command);
