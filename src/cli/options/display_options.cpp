@@ -45,14 +45,14 @@ constexpr KeyOption content[] = {
      "subtract crosstalk"},
 };
 
-// Within the key's own range.
+// Returns a whole number within the range of the key.
 std::int64_t count(const KeyOption& option, const Option& value) {
     constexpr auto most = std::numeric_limits<std::int64_t>::max();
     const Range& range = key_at(option.key)->key.range;
     return value.whole_number(std::int64_t(range.low), range.high < double(most) ? std::int64_t(range.high) : most);
 }
 
-// The option's value in TOML syntax.
+// Returns the option's value in TOML syntax.
 std::string toml_value(const KeyOption& option, const Option& value) {
     switch (option.form) {
         case Form::number:
@@ -100,7 +100,7 @@ bool DisplayOptions::given(std::string_view option) const {
                        [&](const auto& each) { return each.first->option == option && each.second.given(); });
 }
 
-// Options become overrides of the description, so that one validation judges file, --set and options together.
+// Options become overrides of the description, so that one validation checks file, --set and options together.
 std::pair<std::vector<std::string>, std::map<std::string, std::string>> DisplayOptions::all_overrides(Faults& faults) const {
     std::vector<std::string> overrides = settings_.texts();
     std::map<std::string, std::string> written;
@@ -132,6 +132,7 @@ Display DisplayOptions::read(const std::string& path, const std::string& compare
         written["--set " + compared] = fmt::format("--compare {}", compared);
     }
     Display display;
+    // Faults of the description at an override are reported at the option from which it was made.
     faults.of([&, &set = overrides, &places = written] {
         try {
             display = read_display(path, set);

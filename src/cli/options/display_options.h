@@ -13,40 +13,43 @@
 
 namespace lfdsim::cli {
 
+/// The form of an option's value: a number, two, three (X,Y,Z) or six numbers, WxH, a whole number, or a word.
 enum class Form { number, pair, point, box, size, count, word };
 
-/// An option that stands for a key of the description.
+/// An option that overrides a key of the description.
 struct KeyOption {
     const char* option;
     const char* key;
     Form form;
     const char* value;  // as help shows it
     const char* help;
-    const char* replaces = nullptr;  // a key of the description that says the same in another way
+    const char* replaces = nullptr;  // another key for the same property, which is removed
 };
 
-extern const std::span<const KeyOption> camera_options;   // from where and how large the picture is
-extern const std::span<const KeyOption> sample_options;   // how a rendering samples
-extern const std::span<const KeyOption> point_options;    // those of them that matter where no estimator is chosen
-extern const std::span<const KeyOption> content_options;  // where the model stands
+extern const std::span<const KeyOption> camera_options;   // the camera's position and the size of the picture
+extern const std::span<const KeyOption> sample_options;   // the samples of a rendering
+extern const std::span<const KeyOption> point_options;    // sample_options without the estimator
+extern const std::span<const KeyOption> content_options;  // the model's pose, and the pick-up
 
+/// The description of a command, with --set and groups of options that override its keys.
 class DisplayOptions {
   public:
-    /// Adds DISPLAY.toml and --set.
+    /// Adds the argument DISPLAY.toml, --set and the groups.
     explicit DisplayOptions(Command command, std::initializer_list<std::span<const KeyOption>> groups = {}, bool required = true);
 
-    /// The description with all overrides, validated. Throws InputError with all problems; those of an option carry its name.
+    /// Returns the description with all overrides, validated. Throws InputError with all problems; those of an option have its
+    /// name.
     Display read() const { return read(path()); }
-    /// Another description with the same overrides, and after them one of --compare if it is not empty.
+    /// Returns another description with the same overrides, and after them that of --compare if it is not empty.
     Display read(const std::string& path, const std::string& compared = {}) const;
-    /// --set and the options as "key=value", in the order in which they apply. Throws InputError.
+    /// Returns --set and the options as "key=value", in the order in which they apply. Throws InputError.
     std::vector<std::string> overrides() const;
     const std::string& path() const { return path_.text(); }
     /// Whether an option of the groups was given.
     bool given(std::string_view option) const;
 
   private:
-    // With, for each override, the place that messages give for it: what the user wrote.
+    // Returns the overrides, and for "--set OVERRIDE", the place that errors have, the text that the user wrote.
     std::pair<std::vector<std::string>, std::map<std::string, std::string>> all_overrides(Faults&) const;
 
     Option path_;

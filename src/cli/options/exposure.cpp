@@ -10,7 +10,7 @@
 namespace lfdsim::cli {
 namespace {
 
-/// The mean light of the pixels that show the screen, over all colours.
+/// Returns the mean light of the pixels that show the screen, over all colours.
 double mean_light(const Image& image, const Region& screen) {
     double sum = 0;
     for (std::size_t k = 0; k < screen.rows.size(); ++k)

@@ -1,4 +1,4 @@
-// The option --exposure: how bright a picture is written. Floor 5.
+// The option --exposure: a factor of the picture's light before it is written. Floor 5.
 #pragma once
 #include "cli/program/command.h"
 #include "engine/render.h"
@@ -18,10 +18,11 @@ class ExposureOption {
     /// Throws InputError for anything but a positive number or "auto".
     void check() const;
 
-    /// The factor of the picture's light; nothing without the option. "auto" renders a white panel, and makes its mean over the
-    /// screen 1. Throws InputError where the picture shows no light of the screen.
+    /// Returns the factor; nothing without the option. "auto" renders a white panel, and makes its mean over the screen 1. Throws
+    /// InputError where the picture shows no light of the screen.
     std::optional<double> factor(const Display&, const Geometry&, RenderOptions, Job&) const;
 
+    /// Multiplies a picture's light and its errors by a factor.
     static void apply(double factor, Rendering&);
 
   private:

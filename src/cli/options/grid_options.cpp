@@ -52,7 +52,7 @@ ViewsPlace views_place(const Display& display, const Geometry& geometry) {
                      display.content.viewing_distance_mm,
                      display.content.view_cone_deg};
     place.lens_mm = display.array.pitch_mm[0] / geometry.lattice.cos_turn;
-    // A point s along the panel's rows from the middle of its elemental image is seen at -s D/g, D from the principal plane.
+    // W = (D' - z_H') p' / (g cos(alpha)): docs/model.md, "Grids of views".
     const double away = place.viewing_distance_mm - geometry.rear_principal_mm;
     place.zone_width_mm =
         away * theory(display, geometry).along[0].elemental_pitch_mm / (geometry.gap_mm * geometry.lattice.cos_turn);
@@ -92,6 +92,7 @@ void ViewsOption::check() {
 
 ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geometry& geometry, int threads,
                                             Progress& progress) const {
+    // The views, with warnings about assumptions and about their order.
     std::optional<ReadViews> views = read_views(source_, wish_, views_place(display, geometry), progress);
     progress.end();
     if (!views) end_interrupted();
@@ -104,6 +105,7 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
             "{}: the motion from column to column and that from row to row contradict each other in depth: rows or columns are in "
             "reversed order",
             source_.name);
+    // The panel, by the pick-up of the description.
     const ViewGrid& grid = views->field.grid();
     const bool inverse = display.content.pickup == PickupKind::inverse;
     PanelOfViews made{{}, "", grid_json(grid)};
@@ -116,6 +118,7 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
     } else {
         made.field = elemental_images(display, geometry, views->field, threads, progress);
     }
+    // What to say about it.
     const double rays = double(std::max<std::int64_t>(made.field.picture.rays, 1));
     made.json.update({{"form", std::string(name_of(source_.form))},
                       {"view_width", views->width},

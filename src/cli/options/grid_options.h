@@ -1,4 +1,4 @@
-// Options about grids of views, read and written. Floor 5.
+// The options of commands that read or write grids of views. Floor 5.
 #pragma once
 #include "cli/output/output.h"
 #include "cli/program/command.h"
@@ -13,11 +13,11 @@
 
 namespace lfdsim::cli {
 
-/// --focus-width-mm, --focus-depth-mm, --camera-distance-mm, --baseline-mm, --view-cone-deg, --cone.
+/// The options --focus-width-mm, --focus-depth-mm, --camera-distance-mm, --baseline-mm, --view-cone-deg, --cone.
 class GridOptions {
   public:
     explicit GridOptions(Command command) : command_(command) {}
-    /// Throws InputError with all that is wrong.
+    /// Returns what the options say. Throws InputError with all faults.
     ViewsWish read() const;
 
   private:
@@ -34,28 +34,28 @@ class GridOptions {
                                       "middle of one of n equal parts, at ((i + 1/2)/n - 1/2) A");
 };
 
-/// The position of a grid that does not state it.
+/// Returns the properties of a display by which grids of views are placed before it.
 ViewsPlace views_place(const Display&, const Geometry&);
 
-/// The grid in words, and as JSON.
+/// Returns a grid in words, or as JSON.
 std::string grid_text(const ViewGrid&);
 Json grid_json(const ViewGrid&);
 
-/// --views, --flip-views and the options of its grid.
+/// The option --views, --flip-views and the options of its grid.
 class ViewsOption {
   public:
     explicit ViewsOption(Command command) : command_(command) {}
     bool given() const { return views_.given(); }
-    /// Finds out what views there are; to be called before long work. No output may replace any of it. Throws InputError.
+    /// Finds the views, before long work, and remembers their files as inputs, which no output may replace. Throws InputError.
     void check();
     struct PanelOfViews {
         FieldPicture field;
-        std::string text;  // of what it was made
-        Json json;
+        std::string text;                           // the views and their grid, in words
+        Json json;                                  // the same for --json
         std::optional<InverseReport> inverse = {};  // of the inverse pick-up
     };
-    /// Reads the views and makes elemental images of them; warns of what is wrong with their order. Throws InputError, and
-    /// Interrupted where a signal ends the reading.
+    /// Reads the views and makes elemental images of them; warns if their order seems wrong. Throws InputError, and Interrupted
+    /// where a signal ends the reading.
     PanelOfViews make(const Display&, const Geometry&, int threads, Progress&) const;
 
   private:

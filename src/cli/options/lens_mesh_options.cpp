@@ -19,7 +19,7 @@ void LensMeshOptions::check() const {
 
 std::optional<MeshedLens> LensMeshOptions::lens(const Display& display, const Geometry& geometry) const {
     if (!given()) return {};
-    constexpr double bytes_per_triangle = 200;  // of the mesh, its copies on the way, and its tree
+    constexpr double bytes_per_triangle = 200;  // of the mesh, its intermediate copies, and its tree
     require_memory("--lens-mesh", fmt::format("a lens of {} triangles", triangles()), bytes_per_triangle * double(triangles()));
     return MeshedLens(display, geometry, triangles(), normals_.text() == "smooth" ? LensNormals::smooth : LensNormals::flat);
 }

@@ -1,4 +1,4 @@
-// lfdsim render --lens-mesh: lenses of triangles in place of true surfaces. Floor 5.
+// The options of lfdsim render for lenses of triangles in place of surfaces (docs/meshed.md). Floor 5.
 #pragma once
 #include "cli/output/output.h"
 #include "cli/program/command.h"
@@ -9,16 +9,16 @@
 
 namespace lfdsim::cli {
 
-/// --lens-mesh, --lens-normals.
+/// The options --lens-mesh and --lens-normals.
 class LensMeshOptions {
   public:
     explicit LensMeshOptions(Command command) : command_(command) {}
     bool given() const { return triangles_.given(); }
-    /// Throws InputError with all that is wrong.
+    /// Throws InputError with all faults of the values.
     void check() const;
-    /// The display's lens in triangles, if it is asked for. Throws InputError if it cannot be made.
+    /// Returns the display's lens in triangles; nothing without --lens-mesh. Throws InputError if it cannot be made.
     std::optional<MeshedLens> lens(const Display&, const Geometry&) const;
-    /// The description of a meshed lens in a rendering's output.
+    /// Returns the description of a meshed lens in a rendering's output, in words or as JSON.
     std::string text(const MeshedLens&) const;
     Json json(const MeshedLens&) const;
 

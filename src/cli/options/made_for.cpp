@@ -16,6 +16,7 @@
 namespace lfdsim::cli {
 namespace {
 
+/// A key or length of a display, and its numbers.
 struct Said {
     const char* key;
     std::vector<double> values;
@@ -27,7 +28,8 @@ struct IntendedDisplay {
     Geometry geometry;
 };
 
-// Anybody may have written it: what the reader of descriptions refuses is not looked at.
+// Returns the display of a picture's metadata; nothing where there is none, or where the reader of descriptions refuses it, since
+// any program may have written it.
 std::optional<IntendedDisplay> made_for(const Metadata& about) {
     const auto text = about.find("display");
     if (text == about.end()) return {};
@@ -40,8 +42,8 @@ std::optional<IntendedDisplay> made_for(const Metadata& about) {
     }
 }
 
-// Returns all that elemental images depend on except the model; lengths on the lens's axis are compared as numbers, however the
-// lens is described.
+// Returns the numbers that nodal elemental images depend on, except the model's. Lengths on the lens's axis represent the lens,
+// however it is described.
 std::vector<Said> pickup_of(const IntendedDisplay& made) {
     const auto& [d, g] = made;
     return {{"panel.pixel_pitch_mm", {d.panel.pixel_pitch_mm}},
@@ -64,7 +66,7 @@ std::vector<Said> camera_of(const IntendedDisplay& made) {
             {"camera.resolution", {double(c.resolution[0]), double(c.resolution[1])}}};
 }
 
-// Ten digits: what two ways of describing one length may differ in is below that.
+// Returns numbers with ten digits: those of one length that is described in two ways may differ in further digits.
 std::string text_of(const Said& said) { return fmt::format("{:.10g}", fmt::join(said.values, ",")); }
 
 bool same(const Said& a, const Said& b) {
@@ -74,7 +76,7 @@ bool same(const Said& a, const Said& b) {
     return true;
 }
 
-/// "array.gap_mm 3.2, not 3.4; ...": the first's values, and the second's.
+/// Returns the differences as "array.gap_mm 3.2, not 3.4; ...", the first's values and then the second's.
 std::string differences(const std::vector<Said>& first, const std::vector<Said>& second) {
     std::vector<std::string> all;
     for (std::size_t k = 0; k < first.size(); ++k)
@@ -83,6 +85,7 @@ std::string differences(const std::vector<Said>& first, const std::vector<Said>&
     return fmt::format("{}", fmt::join(all, "; "));
 }
 
+/// Whether a panel image depends on the lenses: elemental images, and patterns that are made for them.
 bool drawn_for_lenses(const Metadata& about) {
     const auto pattern = about.find(pattern_mark);
     return pattern == about.end() || pattern->second == "view" || pattern->second == "edge";

@@ -1,4 +1,4 @@
-// What the panel shows: an image file, elemental images of a model, or a test pattern. Floor 5.
+// The options for what the panel shows: an image file, elemental images of a model, or a test pattern. Floor 5.
 #pragma once
 #include "base/job.h"
 #include "cli/output/output.h"
@@ -12,7 +12,7 @@
 
 namespace lfdsim::cli {
 
-/// --panel-image.
+/// The option --panel-image.
 class PanelImageOption {
   public:
     explicit PanelImageOption(Command command)
@@ -21,21 +21,21 @@ class PanelImageOption {
     /// Throws InputError if it is given without a name.
     void check() const;
     const std::string& path() const { return image_.text(); }
-    /// Says on standard error if the image is marked as that of an interrupted run, and so returns true, or if it was made for
-    /// another display. Throws InputError.
+    /// Warns if the image is marked as that of an interrupted run, or if it was made for another display; returns whether it is so
+    /// marked. Throws InputError.
     bool warn(const Display&) const;
     struct Read {
         Texels texels;
-        bool incomplete;
+        bool incomplete;  // marked as that of an interrupted run
     };
-    /// Warns, too. Throws InputError.
+    /// Reads the image, with the same warnings and one about light above white. Throws InputError.
     Read read(const Display&, Job&) const;
 
   private:
     Option image_;
 };
 
-/// --model, which stands in for content.model and objects.
+/// The option --model, which replaces the description's model and objects.
 class ModelOption {
   public:
     explicit ModelOption(Command command)
@@ -43,8 +43,8 @@ class ModelOption {
                                 "Mesh file to show (any format Assimp reads), or built-in:spheres; default: the description's "
                                 "content.model or its objects, or the spheres if it has none")) {}
     bool given() const { return model_.given(); }
-    /// Puts the option's file, if it is given, into the display in place of what that shows; no output may replace either. Throws
-    /// InputError if it is given without a name.
+    /// Replaces the display's model and objects by the option's file, if it is given. The files of both are remembered as inputs,
+    /// which no output may replace. Throws InputError if the option is given without a name.
     void apply(Display&) const;
     const std::string& path() const { return model_.text(); }
 
@@ -52,19 +52,20 @@ class ModelOption {
     Option model_;
 };
 
-/// The display's model, or its objects, in place; says on standard error what was dropped or repaired. Throws InputError.
+/// Reads the display's model or objects and places them; warns about what was dropped or repaired. Throws InputError.
 ContentScene load_scene(const Display&, const Geometry&);
 
-/// --pattern alone, which check_pattern() reads: throws InputError for a name that is not known.
+/// Adds the option --pattern alone.
 Option pattern_name(Command);
+/// Throws InputError if the option --pattern has a name that is not known.
 void check_pattern(const Option&);
 
-/// --pattern and the options that belong to it.
+/// The option --pattern and those that belong to it.
 class PatternOption {
   public:
     explicit PatternOption(Command command) : command_(command) {}
     bool given() const { return pattern_.given(); }
-    /// Reads the values strictly. Throws InputError for those that are wrong.
+    /// Returns the values of the options. Throws InputError with all faults.
     PatternOptions read() const;
     const std::string& name() const { return pattern_.text(); }
 

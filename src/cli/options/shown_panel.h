@@ -1,4 +1,4 @@
-// The panel's light, from what the command line says that it shows. Floor 5.
+// The panel's light, by the options of panel_source.h. Floor 5.
 #pragma once
 #include "cli/options/panel_source.h"
 
@@ -6,15 +6,16 @@ namespace lfdsim::cli {
 
 struct PanelTexels {
     Texels texels;
-    Json made = Json::object();  // how it was made, for what a command prints as JSON
+    Json made = Json::object();  // how it was made, for --json
 };
 
-/// The image file, the pattern, or the elemental images of the display's model. Throws InputError, and Interrupted where a signal
-/// ends the making.
+/// Returns the light of the image file, the pattern, or the elemental images of the display's model. Throws InputError, and
+/// Interrupted where a signal stops the work.
 PanelTexels shown_panel(const PanelImageOption&, const PatternOption&, const Display&, const Geometry&, const PatternOptions&,
                         int threads, Progress&);
 
-/// What tells that what the panel would show has changed: the image's file, or those of the display's model.
+/// Returns a stamp (report/folder/run_settings.h) that changes with the panel's content: of the image's file, or of the files of
+/// the display's model.
 Json shown_stamp(const PanelImageOption&, const PatternOption&, const Display&);
 
 }  // namespace lfdsim::cli

@@ -14,8 +14,8 @@ std::vector<Variant> variants_of(const std::string& text) {
     const std::size_t equals = std::min(wanted.find('='), wanted.size());
     const std::string key = wanted.substr(0, equals);
     std::vector<std::string> values{""};
-    int depth = 0;
-    char quote = 0;
+    int depth = 0;   // of brackets and braces
+    char quote = 0;  // the quote that is open; 0: none
     for (const char c : std::string_view(wanted).substr(std::min(equals + 1, wanted.size()))) {
         if (quote == 0 && depth == 0 && c == ',') {
             values.emplace_back();

@@ -32,7 +32,7 @@ std::string DeviceOption::read() const {
 }
 
 void print_made(const PictureMade& made, bool json, const std::string& more_text, const Json& more) {
-    // Time of tracing alone: files and start are the same for all kernels.
+    // The rate is that of tracing alone: files and start take the same time with all kernels.
     const double rate = made.seconds > 0 ? double(made.count) / made.seconds : 0;
     if (json) {
         Json all{{"output", made.path},   {"width", made.width},     {"height", made.height},
