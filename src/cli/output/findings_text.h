@@ -6,11 +6,11 @@
 
 namespace lfdsim::cli {
 
-/// A measure's findings as lines, theory beside measurement; `measured` is what its NAME.json holds.
+/// Returns a measure's findings as lines, theory beside measurement; `measured` is the content of its NAME.json.
 std::string table_of(const Json& measured);
 
-/// The table of what differences() found: a line for each figure with what all displays have, and whether the others differ from
-/// the first.
+/// Returns the result of differences() as a table: a line for each figure with the values of all displays, and whether the others
+/// differ from the first by more than the errors.
 std::string table_of_differences(const Json&);
 
 }  // namespace lfdsim::cli

@@ -7,10 +7,11 @@
 
 namespace lfdsim::cli {
 
-/// Writes its warnings.
+/// Logs the warnings of the inverse pick-up.
 void warn_of_inverse(const InverseReport&);
-/// "at 8 eyes that were not fitted: 31.1 dB, SSIM 0.83 (traced content: 27.4 dB, 0.76)".
+/// Returns the result in words: "at eyes that were not fitted: 31.10 dB, SSIM 0.830 (traced content: 27.40 dB, SSIM 0.760); ...".
 std::string inverse_text(const InverseReport&);
+/// Returns all figures of the result, for --json.
 Json inverse_json(const InverseReport&);
 
 }  // namespace lfdsim::cli

@@ -24,9 +24,10 @@ namespace fs = std::filesystem;
 constexpr const char* colours[] = {"red", "green", "blue"};
 constexpr int values_per_node = 5;  // x, y, slope x, slope y, light
 
-/// A node's line itself, with u the panel point and the slopes of its nodal line added.
+/// The line along which most light of a panel point u travels, and the light relative to that of the point on the axis; NaN where
+/// there is none. A LensMapping has its difference to the nodal line, whose slope is -u/g.
 struct NodeLine {
-    double ux, uy, x, y, mx, my, light;
+    double ux, uy, x, y, mx, my, light;  // mm, mm; mm at H', slopes; 1
 };
 NodeLine node_line(const LensMapping& map, const Geometry& g, bool strips, int i, int j) {
     const auto place = [&](std::size_t k, int n) {
@@ -45,7 +46,7 @@ NodeLine node_line(const LensMapping& map, const Geometry& g, bool strips, int i
             map.share(i, j)};
 }
 
-/// Nodes by rows from the top, as in pictures.
+/// Returns the values of all nodes, values_per_node each, by rows from the top as in pictures, one map after the other.
 std::vector<float> table_of(const std::vector<LensMapping>& maps, const Geometry& g, bool strips) {
     std::vector<float> values;
     for (const LensMapping& map : maps)
@@ -57,6 +58,7 @@ std::vector<float> table_of(const std::vector<LensMapping>& maps, const Geometry
     return values;
 }
 
+/// Writes the table as layers COLOUR.slope and COLOUR.place; the picture is the slopes of the middle map.
 void write_exr(const fs::path& path, const std::vector<LensMapping>& maps, const std::vector<float>& values) {
     const int width = maps[0].nodes()[0], height = maps[0].nodes()[1];
     WriteOptions options;
@@ -77,6 +79,7 @@ void write_exr(const fs::path& path, const std::vector<LensMapping>& maps, const
     write_image(path, first, options);
 }
 
+/// Returns the content of NAME.json.
 Json sidecar(const Display& d, const Geometry& g, const std::vector<LensMapping>& maps, const std::string& file) {
     const LensMapping& map = maps[0];
     Json wavelengths = Json::array(), names = Json::array();
@@ -118,7 +121,8 @@ Json sidecar(const Display& d, const Geometry& g, const std::vector<LensMapping>
             {"display", d.name}};
 }
 
-/// Lines of a grid of panel points in the plane of slopes, straight for nodal lines; of strips how the slope differs.
+/// Returns the plot of a grid of panel points in the plane of slopes, in which nodal lines make straight lines; of strips the
+/// difference of the slope from that of the nodal line.
 Plot plot_of(const std::vector<LensMapping>& maps, const Geometry& g, bool strips, const std::string& name) {
     Plot plot{
         "mapping", "Where the lens sends light, " + (name.empty() ? "array's frame" : name), "slope along x", "slope along y", {}};
@@ -169,7 +173,7 @@ void MappingOption::check(const std::string& output) const {
     if (ending != ".npy" && ending != ".exr")
         throw InputError(mapping_.name(), fmt::format("{}: the name must end in .npy or .exr", path()));
     check_output(path(), mapping_.name());
-    // Both are those of an earlier run if the first says that it is of this file.
+    // The two other files are those of an earlier run if the .json says that it is of this file.
     const bool own = is_sidecar(beside(path(), ".json"), fs::path(path()).filename());
     for (const char* other : {".json", ".svg"}) check_companion(beside(path(), other), own, replace_);
 }

@@ -1,4 +1,4 @@
-// A lens's mapping in files, for those who drive the hardware. Floor 5.
+// The files of lfdsim eia --mapping: a lens's mapping of panel points to rays, for programs that drive a display. Floor 5.
 #pragma once
 #include "cli/program/command.h"
 #include "cli/program/progress.h"
@@ -9,15 +9,16 @@
 
 namespace lfdsim::cli {
 
-/// --mapping: where the lens sends the light of the panel points under it. NAME.npy or NAME.exr holds the table, NAME.json says
-/// what its axes and units are, NAME.svg shows the distortion.
+/// The option --mapping: where the lens sends the light of the panel points under it. NAME.npy or NAME.exr has the table, NAME.json
+/// its axes and units, NAME.svg shows the distortion.
 class MappingOption {
   public:
     explicit MappingOption(Command command) : command_(command) {}
     bool given() const { return !mapping_.empty(); }
-    /// Checks the three files; to be called before long work. Throws InputError unless all three files can be written, and none
-    /// is `output`.
+    /// Checks the three files before long work. Throws InputError unless all three can be written, and the named one is not
+    /// `output`.
     void check(const std::string& output) const;
+    /// Traces the lens and writes the three files.
     void write(const Display&, const Geometry&, int threads) const;
 
   private:

@@ -25,7 +25,7 @@ void NewDescription::check() const {
 std::string NewDescription::made_by() {
     std::string line;
     for (const std::string& word : command_words()) {
-        // A path, or an option's value after its "=".
+        // The word, or an option's value after its "=", may be a path.
         const std::size_t equals = word.starts_with("--") ? word.find('=') : word.npos,
                           start = equals == word.npos ? 0 : equals + 1;
         const std::filesystem::path value = word.substr(start);
@@ -38,7 +38,7 @@ std::string NewDescription::made_by() {
 void NewDescription::write(const std::string& text) const {
     try {
         parse_display(text, path(), {}, std::filesystem::path(path()).parent_path());
-    } catch (const InputError& error) {  // what else is in the text has been checked
+    } catch (const InputError& error) {  // everything else in the text has been checked
         throw InputError("--output", fmt::format("the description could not be read ({}); is a file's name not UTF-8?",
                                                  error.problems.front().what));
     }

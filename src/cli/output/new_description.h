@@ -1,4 +1,4 @@
-// A description that a command writes for the user to go on with. Floor 5.
+// A description that a command writes, as a starting point for the user. Floor 5.
 #pragma once
 #include "cli/program/command.h"
 
@@ -6,18 +6,19 @@
 
 namespace lfdsim::cli {
 
-/// -o and --force.
+/// The options -o and --force.
 class NewDescription {
   public:
     explicit NewDescription(Command command)
         : path_(command.option("-o,--output", "FILE", "Description to write: .toml").required()),
           force_(command.flag("--force", "Replace an existing file")) {}
-    /// Checks the output; to be called before work. Throws InputError unless a description can be written there.
+    /// Checks the output, before work. Throws InputError unless a description can be written there.
     void check() const;
-    /// Writes the text, which has to read back as a description; the file is whole or not there.
+    /// Writes the text, which must read back as a description, completely or not at all. Throws InputError.
     void write(const std::string& text) const;
     const std::string& path() const { return path_.text(); }
-    /// The command line, for a comment: the program by its name, files that were given by absolute paths by theirs.
+    /// Returns the command line, for a comment, with the program's name and the names of files that were given by absolute paths in
+    /// place of their paths.
     static std::string made_by();
 
   private:

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Without the options that alone may differ between a run and the one that goes on with it.
+// Returns a command without the options that may differ between a run and the one that continues it.
 std::string resumed(std::string command) {
     for (const std::string_view option : {" --resume", " --replace"})
         for (std::size_t i = 0; (i = command.find(option, i)) != command.npos;)
@@ -23,7 +23,7 @@ std::string resumed(std::string command) {
     return command;
 }
 
-// A file that is no picture is nobody's, and an .npy does not say.
+// The maker of a picture: nobody's is a file that is not a picture; an .npy has no metadata and counts as lfdsim's.
 enum class Maker { nobody, lfdsim, other };
 Maker maker_of(const fs::path& file) {
     try {

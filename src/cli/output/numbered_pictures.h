@@ -1,4 +1,4 @@
-// A folder of pictures with numbers for names, which one command makes one after the other and can go on with. Floor 5.
+// A folder of numbered pictures, which one command makes one after the other and can continue after an interruption. Floor 5.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -8,27 +8,27 @@
 
 namespace lfdsim::cli {
 
-/// Numbered pictures of one command, which can be distinguished from those of any other: each carries the program's version, the
-/// command, the description, and "shown", that of what is in it.
+/// Numbered pictures of one command, which can be distinguished from those of any other: the metadata of each have the program's
+/// version, the command, the description, and "shown", the stamp of its content.
 struct NumberedPictures {
     std::filesystem::path folder;
     std::int64_t count = 0;
-    std::function<std::string(std::int64_t)> name;            // of a picture's file, ending and all
-    std::function<std::string(std::int64_t)> display;         // the description that it is made of
-    std::string shown;                                        // changes with the files that the pictures are made of
-    std::function<bool(const std::filesystem::path&)> alike;  // whether a file is named as such pictures are
-    std::string of_what;                                      // "frame"
-    bool resume = false, replace = false;
+    std::function<std::string(std::int64_t)> name;            // of a picture's file, with its ending
+    std::function<std::string(std::int64_t)> display;         // the description of which a picture is made
+    std::string shown;                                        // changes with the files of which the pictures are made
+    std::function<bool(const std::filesystem::path&)> alike;  // whether a file is named like these pictures
+    std::string of_what;                                      // a picture in messages: "frame"
+    bool resume = false, replace = false;                     // --resume, --replace
 
     std::filesystem::path file(std::int64_t n) const { return folder / name(n); }
-    /// Whether the same command has made that picture of the same things.
+    /// Whether a picture exists that the same command has made of the same display and content.
     bool finished(std::int64_t n) const;
     std::int64_t count_finished() const;
-    /// Removes files there, named alike, that this command would not make so if they are to be replaced, else throws InputError.
-    /// Pictures that lfdsim has not made are never removed, and a file that is no picture any more is made again where the command
-    /// goes on.
+    /// Removes files with names like these that are not finished pictures, with `replace`; else throws InputError if there are any.
+    /// Pictures that lfdsim has not made are never removed. With `resume`, files that are not pictures any more do not count: they
+    /// are made again.
     void keep_apart() const;
-    /// The pictures that are not finished, or all of them where the command does not go on.
+    /// Returns the pictures that remain to be made: with `resume` those that are not finished, else all.
     std::vector<std::int64_t> left() const;
 };
 

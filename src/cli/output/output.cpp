@@ -19,7 +19,7 @@
 
 namespace lfdsim::cli {
 
-// The kernel keeps the words as they were given.
+// The words are those that the system keeps of the program's start.
 std::vector<std::string> command_words() {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(file), {}};

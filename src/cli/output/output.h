@@ -1,4 +1,4 @@
-// Results: text on standard output, pictures with what made them. Floor 5.
+// The results of commands: text on standard output, and pictures with the settings that made them. Floor 5.
 #pragma once
 #include "cli/program/command.h"
 #include "cli/program/progress.h"
@@ -15,46 +15,48 @@ namespace lfdsim::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// Writes to standard output: all text that a command prints goes through here, and nothing in it is obeyed by a terminal
-/// (base/printable.h). JSON stays the same document. Throws std::runtime_error when it cannot be written (closed pipe, full disk).
+/// Writes to standard output. All text that a command prints goes through here, where characters that control a terminal are
+/// escaped (base/printable.h); JSON remains the same document. Throws std::runtime_error when it cannot be written (closed pipe,
+/// full disk).
 void print(std::string_view text);
 /// Prints a JSON document; numbers that are not finite become null.
 void print_json(const Json&);
 
-/// Writes a text file, which is whole or not there. Throws InputError if the command reads that very file.
+/// Writes a text file, completely or not at all. Throws InputError if the command reads that file.
 void write_text(const std::filesystem::path&, std::string_view text);
 
-/// The command line as it was given, the program first; and as a shell would need it, so that it can be copied and run again.
+/// Returns the words of the command line as they were given, the program first.
 std::vector<std::string> command_words();
+/// Returns the command line as a shell needs it, so that it can be copied and run again.
 std::string command_line();
 
-/// Name and version, as pictures carry them.
+/// Name and version, as the metadata of pictures have them.
 inline constexpr const char* software = "lfdsim " LFDSIM_VERSION;
 
-/// The key of a picture's metadata that says that it is not complete.
+/// The key of a picture's metadata that marks it as incomplete.
 inline constexpr const char* incomplete_mark = "incomplete";
 
 /// Remembers the file that an argument names as one that no output may replace. Throws InputError that names the argument if no
 /// file is named.
 void check_input(const std::string& argument, const std::string& path);
 
-/// Checks an output; to be called before long work, and after the inputs are known. From here on a signal removes what is partly
-/// written. Throws InputError unless a picture can be written at `path`, which the option gave, without replacing an input.
+/// Checks an output, before long work and after the inputs are known. From here on a signal removes its partial file. Throws
+/// InputError unless a picture can be written at `path`, which the option gave, without replacing an input.
 void check_output(const std::string& path, const std::string& option = "--output");
 
-/// -o and --bits.
+/// The options -o and --bits.
 class OutputOptions {
   public:
     OutputOptions(Command command, const std::string& kinds)
         : path_(command.option("-o,--output", "FILE", "Picture to write: " + kinds).required()),
           bits_(command.option("--bits", "8|16", "Bits per channel of a .png; default 8")) {}
-    /// Checks the output; to be called before long work. Throws InputError unless the picture can be written there in that depth.
+    /// Checks the output, before long work. Throws InputError unless the picture can be written there in that depth.
     void check() const;
-    /// Throws InputError unless pictures of such a file name (".png" alone will do) can have that depth.
+    /// Throws InputError unless pictures with this ending, that of a name such as "frame.png", can have that depth.
     void check_bits(const std::filesystem::path& name) const;
-    /// Saves the picture with `about`, the command line, version and display; work before it has shown its progress. One that is
-    /// not complete is marked so, and the program then ends as interrupted. Layers are for the formats that keep them.
-    /// `content`: what one that is not complete contains, if not its completed part.
+    /// Saves the picture with `about`, the command line, version and display, and ends the progress of the work before. A picture
+    /// that is not complete is marked as such, and Interrupted is then thrown; `content` says what it contains, if not its
+    /// completed part. Layers are for the formats that keep them.
     void write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&, std::vector<ImageLayer> = {},
                const std::string& content = {}) const;
     /// Saves a picture as write() does, at another path; a large one is a stage of the job.
@@ -67,11 +69,12 @@ class OutputOptions {
     Option path_, bits_;
 };
 
-/// Says that the work was stopped and nothing was saved. Throws Interrupted.
+/// Logs that the work was stopped and nothing was saved. Throws Interrupted.
 [[noreturn]] void end_interrupted();
-/// Says that the work was stopped and what the saved picture contains: by default its completed part. Throws Interrupted.
+/// Logs that the work was stopped and what the saved picture contains: by default its completed part. Throws Interrupted.
 [[noreturn]] void end_incomplete(const std::string& picture, const std::string& content = {});
-/// Ends an interrupted run whose folder contains `finished`, "3 of 9 views"; states whether a run with --resume continues there.
+/// Logs that the work was stopped, what its folder contains ("3 of 9 views"), and whether a run with --resume continues it. Throws
+/// Interrupted.
 [[noreturn]] void end_interrupted(const std::filesystem::path& folder, const std::string& finished, bool resumable = true);
 
 }  // namespace lfdsim::cli

@@ -7,16 +7,16 @@
 #include <string>
 #include <system_error>
 
-// A process of its own waits until our end of a pipe closes, which the system does however the program ends, and removes the
-// folder.
+// A separate process waits until the program's end of a pipe closes, which the system does however the program ends, and then
+// removes the folder.
 namespace lfdsim::cli {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) { throw std::system_error(errno, std::generic_category(), what); }
 
-// After fork() in a program with threads: only calls that are safe in a signal handler.
+// Runs in the separate process. After fork() in a program with threads, only calls that are safe in a signal handler are allowed.
 [[noreturn]] void clean_up(const char* folder, int needed, int alive) {
-    setsid();  // Ctrl-C is for the program
+    setsid();  // so that Ctrl-C reaches the program only
     close(alive);
     char byte;
     while (read(needed, &byte, 1) < 0 && errno == EINTR) {

@@ -1,15 +1,15 @@
-// Files that must not outlive the program. Floor 5.
+// A folder for files that must not remain when the program has ended. Floor 5.
 #pragma once
 #include <sys/types.h>
 #include <filesystem>
 
 namespace lfdsim::cli {
 
-/// A new folder that goes, with all in it, when this object does, or when the program ends in any other way: by a signal too, even
-/// one that it cannot catch.
+/// A new folder that is removed, with its files, when this object is destroyed or the program ends in any way, even by a signal
+/// that it cannot catch.
 class TemporaryFolder {
   public:
-    /// Throws std::system_error.
+    /// Makes the folder. Throws std::system_error.
     TemporaryFolder();
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -19,8 +19,8 @@ class TemporaryFolder {
 
   private:
     std::filesystem::path path_;
-    int alive_ = -1;  // the pipe's end that says, by being open, that the folder is needed
-    pid_t janitor_ = -1;
+    int alive_ = -1;      // end of a pipe: while it is open, the folder is needed
+    pid_t janitor_ = -1;  // the process that removes the folder
 };
 
 }  // namespace lfdsim::cli
