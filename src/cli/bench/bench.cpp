@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <iterator>
 
-// lfdsim bench: what this machine makes of the program, group by group; and what a reader of the figures has to know of both.
+// lfdsim bench: measures the program on this machine, group by group, and reports the machine and the build with the figures.
 namespace lfdsim::cli {
 namespace {
 
@@ -74,7 +74,7 @@ BenchSettings settings_of(const BenchArguments& args) {
         faults.of([&] { throw InputError("--model", s.model + " does not exist"); });
     faults.of([&] { bench_displays(s); });
     faults.of([&] {
-        const Display d = bench_display();  // of the other groups, which hold two panel images at once
+        const Display d = bench_display();  // the display of the other groups, which hold two panel images at once
         require_picture_memory(d.camera.resolution[0], d.camera.resolution[1], 2 * texel_bytes(d));
     });
     faults.report();
@@ -82,6 +82,7 @@ BenchSettings settings_of(const BenchArguments& args) {
     return s;
 }
 
+/// The machine, the build and the settings that the figures depend on.
 Json about(const BenchSettings& s) {
     return {
         {"version", LFDSIM_VERSION},
@@ -111,7 +112,7 @@ void run(const BenchArguments& args) {
             if ((chosen.empty() || std::ranges::count(chosen, group.name) > 0) && !bench.cancelled()) group.run(bench);
         }
     } catch (const InputError&) {
-        if (!bench.cancelled()) throw;  // else the signal stopped the reader of models, too
+        if (!bench.cancelled()) throw;  // after a signal, the error says only that reading a model was stopped
     }
     progress.end();
     all["complete"] = !bench.cancelled();

@@ -26,7 +26,7 @@ void make_ideal(Display& d) {
     d.lens = {IdealLens{4.4, 18.4}, {}};  // f = R/(n - 1)
 }
 
-// A million lenses on the same panel: all lengths of lens and array shrink.
+// Puts a million lenses on the same panel: all lengths of lens and array shrink by the same factor, the panel's pixels do not.
 void make_tiny_lenses(Display& d) {
     const double shrink = 384.0 / 1000 / 8.8;
     d.array.count = {{1000, 1000}};
@@ -101,6 +101,7 @@ Texels noise_panel(const Display& d) {
     const auto [columns, rows] = d.panel.pixels;
     Texels texels(columns, rows);
     for (std::int64_t i = 0; i < columns * rows * 4; ++i)
+        // The upper 24 bits of a multiplicative hash; every fourth value is the texel's padding.
         texels.data()[i] = i % 4 == 3 ? 0.0f : float(std::uint32_t(i) * 2654435761u >> 8) * 0x1p-24f;
     return texels;
 }
@@ -126,7 +127,7 @@ Display bench_display() {
     d.camera.frame_width_mm = 384;
     d.content.tilt_deg = -35;  // Blender's monkey looks up
     d.render.fresnel = Fresnel::schlick;
-    d.render.estimator = Estimator::point;  // the paper's way
+    d.render.estimator = Estimator::point;  // as in the paper
     d.render.samples = 100;
     return d;
 }

@@ -1,4 +1,4 @@
-// What `lfdsim bench` renders: one display, and what each duty of the renderer changes in it. Floor 5.
+// The display that `lfdsim bench` renders, and the changes by which it measures each feature of the renderer. Floor 5.
 #pragma once
 #include "display/display.h"
 #include "image/image.h"
@@ -12,24 +12,24 @@ namespace lfdsim::cli {
 /// pixel: the size of the experiment in the 2019 paper (Guan, Sang et al., Opt. Express 27(20) 29309).
 Display bench_display();
 
-/// A changed display and its name in the tables.
+/// A change of a display that gives the renderer one more duty, and its name in the tables.
 struct Duty {
     const char* name;
     void (*change)(Display&);
 };
 extern const std::span<const Duty> duties;   // the first changes nothing
-extern const std::span<const Duty> glasses;  // every type of lens in every surround it can have; the first changes nothing
+extern const std::span<const Duty> glasses;  // every type of lens in every surround that it can have; the first changes nothing
 
-/// Replaces the lens by a prescription whose cap is an asphere.
+/// Replaces the lens by a plano-convex one of two surfaces whose cap is an asphere: R = 9 mm, conic -0.36, n = 1.49.
 void make_asphere(Display&);
-/// Cylindrical lenses in place of the round ones, as many as cover the panel.
+/// Replaces the round lenses by cylindrical ones, enough of them to cover the panel.
 void make_strips(Display&);
 
-/// A panel image of which no pixel says anything about its neighbours: the worst case for caches, and the usual one under a
-/// diffuser.
+/// A panel image of pseudo-random linear light in 0 .. 1, in which neighbours are unrelated: the worst case for caches, and the
+/// usual one under a diffuser.
 Texels noise_panel(const Display&);
 
-/// `rows` full rows in the middle of the frame, for what need not take seconds.
+/// The rectangle of the `rows` middle rows of the frame, at full width; all rows if it has fewer.
 Rect band(const Display&, int rows);
 
 }  // namespace lfdsim::cli

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Group "colour": a picture of light at three wavelengths against that of one, and of a panel with subpixels against whole pixels.
-// Their results are looked at, too: a fast picture that is wrong is no figure.
+// Group "colour": the time of a picture with three wavelengths relative to that with one, and of a panel with subpixels relative to
+// whole pixels. The pictures are checked, too: the time of a wrong picture is worth nothing.
 namespace lfdsim::cli {
 namespace {
 
@@ -19,14 +19,15 @@ struct ColourCase {
     void (*plain)(Display&);
     void (*colour)(Display&);
     const char* error_name;
-    double (*error)(const Display& plain, const Display& colour, const Rect&, Bench&);
+    double (*error)(const Display& plain, const Display& colour, const Rect&, Bench&);  // 0 for a correct picture
 };
 
 Image picture_of(const Display& d, const Texels& panel, const Rect& crop, Bench& bench) {
     return render(d, resolve(d), panel, {bench.settings.threads, bench.settings.kernel, crop}, bench.job()).image;
 }
 
-/// The greatest difference of a channel from its picture through glass of constant indices, those of its wavelength.
+/// The greatest difference, in linear light, between a channel and its picture through glass of the constant index that the glass
+/// has at the channel's wavelength.
 double bands_error(const Display&, const Display& colour, const Rect& crop, Bench& bench) {
     const Texels panel = noise_panel(colour);
     const Image all = picture_of(colour, panel, crop, bench);
@@ -38,7 +39,7 @@ double bands_error(const Display&, const Display& colour, const Rect& crop, Benc
     return double(greatest);
 }
 
-/// The error of a white panel: the mean light of the picture over that with whole pixels, less 1.
+/// The error of a white panel: the mean light of its picture divided by that with whole pixels, less 1.
 double white_error(const Display& plain, const Display& colour, const Rect& crop, Bench& bench) {
     const auto light = [&](const Display& d) {
         Texels white(d.panel.pixels[0], d.panel.pixels[1]);
@@ -83,7 +84,7 @@ void compare(const ColourCase& pair, const Duty& estimator, Bench& bench) {
     const double error = pair.error(displays[0], displays[1], crop, bench);
     const Texels texels = noise_panel(displays[0]);
     const SummedPanel panel(texels, bench.settings.threads);
-    for (const Display& d : displays) planes_of(panel, panel_reading(d));  // made before anything is timed
+    for (const Display& d : displays) planes_of(panel, panel_reading(d));  // builds the tables before anything is timed
     std::vector<Case> cases;
     for (const Display& d : displays)
         cases.push_back(rendering(pair.name, d, panel, {bench.settings.threads, bench.settings.kernel, crop}));

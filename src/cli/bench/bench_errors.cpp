@@ -8,8 +8,8 @@
 #include <cmath>
 #include <memory>
 
-// Group "errors": point samples of arrays whose lenses stand by themselves against those of the same arrays without errors, and
-// whether lenses by themselves that stand where they should give the same picture.
+// Group "errors": the time of point samples of arrays whose lenses have errors relative to the same arrays without, and whether a
+// given table of errors that is empty, which selects the renderer of single lenses, leaves the picture unchanged.
 namespace lfdsim::cli {
 namespace {
 
@@ -51,7 +51,7 @@ void compare(const Duty& array, const Texels& panel, Bench& bench) {
         Display wrong = plain;
         kind.change(wrong);
         if (plain.array.surround == Surround::opaque || wrong.errors.tilt_sd_deg == 0)
-            add(kind.name, wrong);  // no cap of a plate turns
+            add(kind.name, wrong);  // only lenses in an opaque surround can tilt
     }
     Display nothing = plain;
     nothing.errors.given = std::make_shared<const std::vector<GivenLensError>>();

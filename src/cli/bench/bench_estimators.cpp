@@ -14,12 +14,13 @@
 #include <filesystem>
 #include <optional>
 
-// Group "estimators": error against time. A part of the picture is rendered with many samples of other seeds, the reference; then
-// by each way of sampling with more and more samples. What a user waits for is the error, so ways are compared by the time to one.
+// Group "estimators": error against time. A part of the picture is rendered with many samples of other seeds, which is the
+// reference, then by each way of sampling with more and more samples. A user waits for an error, so the ways are compared by the
+// time that each takes to reach the same one (docs/performance.md, "Measuring by hand").
 namespace lfdsim::cli {
 namespace {
 
-/// A way to spend samples. Another needs one more line here, and nothing else.
+/// A way of sampling. A new one needs one more line in `estimators`, and nothing else.
 struct Contender {
     const char* name;
     void (*choose)(Display&);
@@ -33,10 +34,11 @@ constexpr const Contender &brute_force = estimators[0], &papers = estimators[1];
 
 constexpr std::int64_t papers_samples = 100;
 constexpr std::int64_t sample_counts[] = {1, 4, 9, 16, 36, 64, papers_samples, 256, 1024};
-constexpr std::int64_t reference_samples = 16384;  // of each of two halves, whose difference tells the error of their mean
+constexpr std::int64_t reference_samples = 16384;  // a pixel, in each of two halves; their difference gives the error of their mean
 
+/// The error of a picture.
 struct Error {
-    double rmse, brightness;  // linear light; ratio of the mean light to the reference's, less 1
+    double rmse, brightness;  // rmse: in linear light; brightness: mean light over the reference's, less 1
 };
 Error error_of(const Image& a, const Image& truth) {
     double squares = 0, sum = 0, wanted = 0;
@@ -49,6 +51,7 @@ Error error_of(const Image& a, const Image& truth) {
     return {std::sqrt(squares / double(a.rgb.size())), sum / wanted - 1};
 }
 
+/// The error and the time of a way of sampling with a number of samples a pixel.
 struct Spent {
     const Contender* estimator;
     std::int64_t samples;
@@ -56,7 +59,9 @@ struct Spent {
     Timing time;
 };
 
+/// A median of a timing's runs.
 using Clock = double (Timing::*)() const;
+/// A comparison of times by one clock: its key in JSON and its name in the table.
 struct Ratio {
     const char *key, *name;
     Clock clock;
@@ -64,7 +69,8 @@ struct Ratio {
 constexpr Ratio ratios_told[] = {{"time_to_papers_error_over_papers", "time", &Timing::median},
                                  {"processor_time_to_papers_error_over_papers", "processor time", &Timing::processor_median}};
 
-/// The least seconds among those measured that come to an error.
+/// The shortest time that the estimator was measured to take to an RMSE of `rmse` or less; none if no measured number of samples
+/// reaches it.
 std::optional<double> seconds_to(double rmse, const Contender& estimator, const std::vector<Spent>& points, Clock clock) {
     std::optional<double> least;
     for (const Spent& p : points) {
@@ -75,13 +81,13 @@ std::optional<double> seconds_to(double rmse, const Contender& estimator, const 
     return least;
 }
 
-/// A display that shows something, and the part of the frame that is looked at.
+/// A display with the content that its panel shows, and the part of the frame that is compared.
 struct BenchView {
     Display display;
     std::string content;
     Texels panel;
     Rect crop;
-    SummedPanel summed{panel};  // as for several views: made once
+    SummedPanel summed{panel};  // is made once, as for several views
 
     std::string name() const {
         return fmt::format("{}, {}, crop {},{},{},{}", display.name, content, crop.x0, crop.y0, crop.x1, crop.y1);
@@ -95,12 +101,15 @@ struct BenchView {
     }
 };
 
+/// The picture that others are compared with.
 struct Reference {
     Image image;
     std::int64_t samples;  // traced for each pixel
-    double rmse;           // its own error, estimated
+    double rmse;           // estimate of the error of `image`
 };
 
+/// The mean of two halves a, b of different seeds; none after a signal. If the error of each half is s, the RMS of a - b is sqrt(2)
+/// s and the error of their mean s / sqrt(2), half of it.
 std::optional<Reference> reference_of(const BenchView& view, Bench& bench) {
     const Rendering a = view.rendered(bench, brute_force, reference_samples, view.display.render.seed + 1, bench.job()),
                     b = view.rendered(bench, brute_force, reference_samples, view.display.render.seed + 2, bench.job());
@@ -111,7 +120,8 @@ std::optional<Reference> reference_of(const BenchView& view, Bench& bench) {
     return r;
 }
 
-// Seconds are those of the whole call, so that what an estimator prepares is not left out, but for the panel's tables.
+// Times every way of sampling with every number of samples. Seconds are those of the whole call, so that an estimator's preparation
+// counts, except for the panel's tables: these are made before, since all views share them.
 std::vector<Spent> points_of(const BenchView& view, const Image& truth, Bench& bench) {
     std::vector<Spent> points;
     for (const Contender& e : estimators) {
@@ -130,7 +140,7 @@ std::vector<Spent> points_of(const BenchView& view, const Image& truth, Bench& b
                              return Run{seconds.count(), double(r.samples)};
                          }});
     const std::vector<Timing> times = bench.measure("estimators", cases);
-    points.resize(times.size());  // after a signal the last may be missing
+    points.resize(times.size());  // a signal may have left out the last cases
     for (std::size_t i = 0; i < times.size(); ++i) points[i].time = times[i];
     return points;
 }
@@ -183,7 +193,8 @@ void compare_estimators(const BenchView& view, Bench& bench) {
     if (!points.empty()) report(view, *reference, points, bench);
 }
 
-// By default the middle of the frame, an eighth of it wide and high: eyes and nose of the monkey.
+// The part of the frame that is compared: --crop, or the middle of the frame, an eighth of its width and height (eyes and nose of
+// the monkey), with --quick a 32nd. Throws InputError if the crop is wrong.
 Rect crop_of(const Display& d, const BenchSettings& settings) {
     const auto [width, height] = d.camera.resolution;
     if (!settings.crop.empty()) return rectangle("--crop", settings.crop, width, height);
@@ -192,6 +203,7 @@ Rect crop_of(const Display& d, const BenchSettings& settings) {
     return {x, y, x + w, y + h};
 }
 
+/// Moves the camera about the vertical through its target, to the right as seen by a viewer for positive angles.
 void walk(Camera& camera, double angle_deg) {
     const double a = angle_deg * degree, x = camera.position_mm[0] - camera.target_mm[0],
                  z = camera.position_mm[2] - camera.target_mm[2];

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <iterator>
 
-// Group "gpu": the whole picture of the paper's size by the first GPU; its own seconds, and those with transfers. The panel is
-// there before, as when a camera moves.
+// Group "gpu": the whole picture of the paper's size by the first GPU; time by the GPU's clock, and with transfers. The panel is in
+// the GPU's memory before, as when a camera moves.
 namespace lfdsim::cli {
 namespace {
 
-/// A case of the sweep.
+/// A number of samples a pixel and its name in the table.
 struct GpuCase {
     const char* name;
     int samples;  // 0: no diffuser, one ray a pixel
@@ -37,7 +37,7 @@ RenderOptions on_gpu(std::optional<Rect> crop = {}) {
     return options;
 }
 
-// Root mean square of what two pictures differ by, linear light.
+// Root mean square difference of two pictures, in linear light.
 double rmse(const Image& a, const Image& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += (double(a.rgb[i]) - b.rgb[i]) * (double(a.rgb[i]) - b.rgb[i]);
@@ -52,7 +52,7 @@ void bench_gpu(Bench& bench) {
     if (!found.missing.empty()) return bench.not_measured("gpu", "all", found.missing);
     const Texels panel = noise_panel(bench_display());
     const SummedPanel summed(panel, bench.settings.threads);
-    std::vector<std::vector<double>> own(std::size(gpu_cases));
+    std::vector<std::vector<double>> own(std::size(gpu_cases));  // seconds by the GPU's clock, of each run of each case
     std::vector<Case> cases;
     for (std::size_t k = 0; k < std::size(gpu_cases); ++k) {
         const Display d = display_of(gpu_cases[k]);
@@ -62,13 +62,13 @@ void bench_gpu(Bench& bench) {
                              return Run{r.seconds, double(r.samples)};
                          }});
     }
-    // The first picture waits for the panel and for memory.
+    // The first pictures wait for the panel's transfer and for memory: they are not timed.
     Job quiet;
     for (const Case& c : cases) c.run(quiet);
     for (auto& seconds : own) seconds.clear();
     const std::vector<Timing> all = bench.measure("gpu", cases);
     if (bench.cancelled()) return;
-    // Errors, in the middle rows: those of the same picture by the CPU, whose bits it has.
+    // Errors are measured in the middle rows. They are those of the CPU's picture, too, which is the same to the bit.
     const auto rows = [&](const GpuCase& w) {
         const Display d = display_of(w);
         return render(d, resolve(d), summed, on_gpu(band(d, 64)), bench.job()).image;

@@ -10,6 +10,7 @@
 namespace lfdsim::cli {
 namespace {
 
+/// Processor time, user and system, that this process and its ended children have used so far.
 double processor_seconds() {
     double sum = 0;
     for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {

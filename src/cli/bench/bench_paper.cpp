@@ -20,11 +20,11 @@
 namespace lfdsim::cli {
 namespace {
 
-// What the paper says of itself.
+// The figures that the paper gives.
 constexpr double paper_seconds = 1, paper_msamples = 829.44, paper_frames_per_s = 20;
 constexpr const char* paper_gpu = "GeForce GTX 980";
 
-// This program, run as a command of its own.
+// A second lfdsim, run as a child process that ends with this one; its standard output is read through a pipe.
 class Child {
   public:
     explicit Child(std::vector<std::string> arguments) {
@@ -38,7 +38,7 @@ class Child {
         child_ = fork();
         if (child_ == 0) {  // only calls that are safe in a signal handler
             prctl(PR_SET_PDEATHSIG, SIGKILL);
-            if (getppid() != parent) _exit(1);
+            if (getppid() != parent) _exit(1);  // the parent ended before prctl()
             dup2(ends[1], STDOUT_FILENO);
             execv("/proc/self/exe", argv.data());
             _exit(127);
@@ -59,7 +59,8 @@ class Child {
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// Waits for the program and returns its output. Throws std::runtime_error if it fails; gives up when the job is cancelled.
+    /// Waits for the program and returns its output, or "" as soon as the job is cancelled. Throws std::runtime_error if the
+    /// program fails.
     std::string finish(const Job& job) {
         std::string text;
         for (char part[4096]; !job.cancelled();) {
@@ -114,7 +115,7 @@ void bench_paper(Bench& bench) {
                                     bench.settings.kernel};
     if (bench.settings.quick) render.insert(render.end(), {"--samples", "10"});
     double samples = 0;
-    std::vector<double> traced;  // seconds of it in each run
+    std::vector<double> traced;  // seconds of tracing in each run, as the program reports them
     const auto timed = [](const std::vector<std::string>& arguments, Job& job) {
         const auto start = std::chrono::steady_clock::now();
         const std::string text = Child(arguments).finish(job);

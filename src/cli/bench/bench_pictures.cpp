@@ -7,12 +7,13 @@
 
 #include <filesystem>
 
-// Groups "content" and "pictures": what is made for the panel, and what is done with files and finished pictures.
+// Groups "content" and "pictures": making content for the panel; writing, reading and comparing finished pictures.
 namespace lfdsim::cli {
 namespace {
 
 constexpr double pixels = 3840.0 * 2160;
 
+/// A run of work on a picture of 3840 x 2160 pixels, which it counts.
 template <class Work>
 std::function<Run(Job&)> timed(Work work) {
     return [work](Job&) {

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 // Groups "rendering", "lenses", "kernels", "threads": samples a second, one change at a time. Samples are counted as traced, so "no
-// diffuser", one ray a pixel, shows what a pixel costs beside its samples.
+// diffuser", which traces one ray a pixel, shows what a pixel costs besides its samples.
 namespace lfdsim::cli {
 namespace {
 
-// Changes leave the panel's size alone.
+// The cases of a group, all with the same panel image: changes must keep the panel's pixels.
 class Renders {
   public:
     explicit Renders(Bench& bench) : bench_(bench), panel_(noise_panel(bench_display())) {}

@@ -9,9 +9,9 @@
 #include <chrono>
 #include <future>
 
-// Group "sweep": the views of a field of view, rendered and compared with photographs that are there before. On a GPU views stay
-// there, and photographs after they were first compared with; it works on two views at a time, so that it does not wait for the
-// CPU between them.
+// Group "sweep": the views of a field of view, rendered and compared with photographs that exist before. On a GPU the views stay in
+// its memory, and so do the photographs after their first comparison; it works on two views at a time, so that it does not wait for
+// the CPU between them.
 namespace lfdsim::cli {
 namespace {
 
@@ -37,7 +37,7 @@ void bench_sweep(Bench& bench) {
                               sweep_views, d.camera.resolution[0], d.camera.resolution[1]));
     const Texels texels = noise_panel(d);
     const SummedPanel panel(texels, bench.settings.threads);
-    // As good as any for the time it takes: two views of the sweep, in turn, in the whole frame.
+    // The comparison takes as long with any photograph: two views of the sweep, in turn, compared in the whole frame.
     const Region whole = Region::of({0, 0, int(d.camera.resolution[0]), int(d.camera.resolution[1])});
     std::vector<Expected> photographs;
     for (const int k : {30, 36}) {
@@ -47,9 +47,9 @@ void bench_sweep(Bench& bench) {
     }
     struct Swept {
         const char *name, *device;
-        int each;     // only every so many views
-        int at_once;  // views
-        std::vector<double> ssim = {};
+        int each;                       // views 0, each, 2 each ... are rendered
+        int at_once;                    // views at a time
+        std::vector<double> ssim = {};  // of each view; 0 where it was not rendered
     };
     std::vector<Swept> sweeps = {{"CPU", "cpu", quick ? 61 : 12, 1}};
     if (found_gpus().missing.empty()) sweeps.push_back({"GPU", "cuda", 1, 2});

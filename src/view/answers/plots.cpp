@@ -41,7 +41,7 @@ Plot fov_plot(const Display& display, const ContentScene& shown_there, const std
     std::unique_lock lock(mutex, std::defer_lock);
     while (!lock.try_lock_for(std::chrono::milliseconds(20)))
         if (job.cancelled()) throw Stopped{};
-    // Angles to a third beyond the theoretical edge, (fov/2) 1.35 + 2 degrees, but only as far as the eye is in front of the
+    // The angles go to 1.35 times the theoretical edge and 2 degrees more, but only as far as the eye is in front of the
     // display.
     const Display d = small(display);
     const Geometry g = resolve(d);
