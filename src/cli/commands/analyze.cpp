@@ -27,7 +27,7 @@
 #include <chrono>
 #include <filesystem>
 
-// lfdsim analyze: measures a display. What is finished stays, whatever happens to the rest.
+// lfdsim analyze: measures one display, or several side by side. Finished measures stay, whatever happens to the rest.
 namespace lfdsim::cli {
 namespace {
 
@@ -43,7 +43,7 @@ struct AnalyzeArguments {
     Option compare = command.option("--compare", "KEY=VALUE,VALUE",
                                     "Measures the display once for each value of a key, side by side: array.gap_mm=3.2,3.3; pickup "
                                     "is short for content.pickup=nodal,traced,inverse");
-    Option output = command.option("-o,--output", "DIR REQUIRED",  // told with what else is wrong
+    Option output = command.option("-o,--output", "DIR REQUIRED",  // request_of() reports its absence with all other faults
                                    "Folder for the results and report.html; created if missing");
     Flag resume = command.flag("--resume", "Skip measures that an earlier run with the same settings has finished there");
     Flag replace = command.flag(
@@ -73,6 +73,7 @@ std::vector<double> steps(const Option& option, double low, double high, const c
     return all;
 }
 
+/// Sets a number above 0 and up to `most`, if the option is given. Throws InputError if it is out of that range.
 template <class Number>
 void read_positive(const Option& option, double most, Number& to) {
     if (option.empty()) return;
@@ -82,6 +83,7 @@ void read_positive(const Option& option, double most, Number& to) {
     to = x;
 }
 
+/// The measures of "fov,dof", each once, in the order of the names; of "all" all. Throws InputError for unknown names.
 std::vector<const Measure*> chosen(const std::string& names) {
     std::vector<const Measure*> result;
     if (names == "all") {
@@ -97,7 +99,7 @@ std::vector<const Measure*> chosen(const std::string& names) {
     return result;
 }
 
-/// Throws InputError if a file of the folder, by its ending one that measures may write, is one that the command reads.
+/// Throws InputError if the command reads a file of the folder whose ending is one of those that measures write.
 void refuse_inputs_in(const std::filesystem::path& folder) {
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(folder, none))
@@ -105,13 +107,15 @@ void refuse_inputs_in(const std::filesystem::path& folder) {
             if (entry.path().extension() == ending) refuse_input(entry.path());
 }
 
-/// A run of measures; finished ones are kept and reported, even if others fail.
+/// A run of measures of one display; finished ones are kept and reported, even if others fail.
 struct Analysis {
     Subject& subject;
     const ResultFolder& folder;
     ReportAbout about;
-    std::vector<Problem> problems = {};
+    std::vector<Problem> problems = {};  // of the measures that do not suit the display or the options
 
+    /// Runs the measures and writes the report. With `resume`, results in the folder are kept. A signal only marks the report as
+    /// interrupted; an unexpected error is rethrown after the report.
     void measure(bool resume, const std::string& progress_style) {
         std::vector<const Measure*> left;
         std::int64_t steps = 0;
@@ -143,7 +147,7 @@ struct Analysis {
             if (auto problem = refusal(m, subject.display())) throw InputError(std::vector{std::move(*problem)});
             const Result result = m.run(subject, progress);
             folder.write(m, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        } catch (const InputError& e) {  // it does not suit this display or these options: others may
+        } catch (const InputError& e) {  // this measure does not suit the display or the options; others may
             about.failed.emplace_back(&m, e.what());
             problems.insert(problems.end(), e.problems.begin(), e.problems.end());
         }
@@ -154,6 +158,7 @@ struct Analysis {
     }
 };
 
+/// Whether a word is "all", or a list that starts with the name of a measure.
 bool names_measures(const std::string& word) {
     if (word == "all") return true;
     try {
@@ -166,14 +171,15 @@ bool names_measures(const std::string& word) {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).stem(); }
 
-/// The measures and displays of a command line. Where the first word is a description, MEASURE was left out.
+/// The measures and displays of a command line.
 struct AnalysisRequest {
     std::vector<const Measure*> wanted;
-    std::vector<std::string> paths;
+    std::vector<std::string> paths;  // the description file of each display; the same for all variants of --compare
     std::vector<Display> displays;
     AnalysisOptions options;
 };
 
+/// Reads the command line and the descriptions. Throws InputError with everything that is wrong.
 AnalysisRequest request_of(const AnalyzeArguments& args) {
     AnalysisRequest request;
     Faults faults;
@@ -181,6 +187,7 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
     request.paths = args.others.texts();
     request.paths.insert(request.paths.begin(), args.display.path());
     std::error_code none;
+    // Where the first word is a description, MEASURE was left out: the words move up by one place.
     if (!names_measures(names) && (names.ends_with(".toml") || std::filesystem::is_regular_file(names, none))) {
         if (names_measures(args.display.path()) && !std::filesystem::exists(args.display.path(), none))
             throw InputError(args.display.path(),
@@ -191,6 +198,7 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
         names = "all";
     }
     faults.of([&] { request.wanted = chosen(names); });
+    // With --compare each variant of the one description is a display; else each description is one.
     std::vector<Variant> variants{{}};
     faults.of([&] {
         if (!args.compare.empty()) variants = variants_of(args.compare.text());
@@ -227,11 +235,12 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
 /// The outcome of one display.
 struct Outcome {
     ResultFolder folder;
-    Json found = Json::object();
+    Json found = Json::object();  // {"measure": what its NAME.json holds}, of this run and of earlier ones
     bool interrupted;
-    std::vector<Problem> problems;
+    std::vector<Problem> problems;  // as Analysis::problems
 };
 
+/// Measures one display in the folder `place`.
 Outcome measure(const AnalyzeArguments& args, const AnalysisRequest& request, const Display& display,
                 const std::filesystem::path& place) {
     const std::vector<const Measure*>& wanted = request.wanted;
@@ -256,7 +265,8 @@ Outcome measure(const AnalyzeArguments& args, const AnalysisRequest& request, co
     return outcome;
 }
 
-/// Names of folders, one for each display: its own or its file's, of letters that every file system takes.
+/// Distinct names of folders, one for each display: the display's name, or that of its file, in characters that every file system
+/// accepts.
 std::vector<std::string> folder_names(const AnalysisRequest& request) {
     std::vector<std::string> all;
     for (std::size_t n = 0; n < request.displays.size(); ++n) {
@@ -273,7 +283,7 @@ std::vector<std::string> folder_names(const AnalysisRequest& request) {
     return all;
 }
 
-/// Each display in a folder of its own, then all of them in one report. What is finished is kept and reported here, too.
+/// Measures each display in a separate folder, then writes one report of all. Finished measures are kept and reported here, too.
 void side_by_side(const AnalyzeArguments& args, const AnalysisRequest& request) {
     const std::filesystem::path place = args.output.text();
     refuse_inputs_in(place);
@@ -287,7 +297,7 @@ void side_by_side(const AnalyzeArguments& args, const AnalysisRequest& request) 
     std::vector<MeasuredDisplay> measured;
     std::vector<Problem> problems;
     Json found = Json::object();
-    const HeedSignals heed;  // between two displays, too, the report comes before the end
+    const HeedSignals heed;  // a signal between two displays, too, does not end the program before the report
     bool interrupted = false;
     for (std::size_t n = 0; n < names.size() && !interrupted; ++n) {
         Outcome outcome = measure(args, request, request.displays[n], place / names[n]);

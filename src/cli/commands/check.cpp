@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-// lfdsim check: what is wrong with a display, what follows from its description, and what that says, key by key.
+// lfdsim check: validates a description; prints warnings, the lengths and the theory that follow from it, and its keys.
 namespace lfdsim::cli {
 namespace {
 
@@ -40,7 +40,7 @@ std::string table_of(const Setting& s) {
     return fmt::format("  {:<22} {:<32}{}", s.key, text, note);
 }
 
-// Seven digits: more than any length is made to, fewer than double arithmetic carries.
+// Formats a figure in seven digits: more than any length is made to, fewer than double arithmetic carries.
 std::string number_text(double x) {
     return std::isfinite(x) ? fmt::format("{:.7g}", x) : std::isnan(x) ? "none" : x > 0 ? "infinite" : "-infinite";
 }
@@ -56,7 +56,7 @@ std::string table_of(const Figure& f) {
     return fmt::format("  {:<28} {:<22} {}", f.name, value, f.meaning);
 }
 
-// Trailing blanks of the columns are cut.
+// Adds a line without the trailing blanks of its columns.
 void add_line(std::string& text, std::string line) {
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";

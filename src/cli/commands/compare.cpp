@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-// lfdsim compare: figures of image/compare/compare.h for two files; for a photograph of a display see compare_photo.cpp.
+// lfdsim compare: prints the figures of image/compare/compare.h for two files; for a photograph of a display see compare_photo.cpp.
 namespace lfdsim::cli {
 namespace {
 

@@ -36,7 +36,8 @@ Corners read_corners(const List& list) {
     return corners;
 }
 
-/// The corners by the display that the picture's metadata describes.
+/// The corners of the screen in a view, pixels, from the display and the camera that the picture's metadata describes. Throws
+/// InputError if it describes none, if the picture is a part of the frame, or if the screen has no four corners for that camera.
 Corners corners_from_display(const std::string& path, const Metadata& about, const Image& view) {
     const auto text = about.find("display");
     if (text == about.end())
@@ -63,6 +64,7 @@ Json pairs(const Corners& corners) {
 
 void PhotoOptions::run(const std::string& view_path, const std::string& photo_path, const Option& encoding, const Option& crop,
                        bool json) const {
+    // The options, before any file is read.
     Faults faults;
     Corners view_corners;
     Image view;
@@ -77,6 +79,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     if (!overlay_.empty() && overlay_.text() == difference_.text())
         faults.of([] { throw InputError("--overlay, --difference", "name the same file; give two names"); });
     faults.report();
+    // The files: faults of both are reported together.
     faults.of([&] {
         view = read_image(view_path, Encoding::srgb);
         warn_above_white(view_path, view);
@@ -91,7 +94,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
         photo.image = read_image(photo_path, photo.encoding);
         warn_above_white(photo_path, photo.image);
         photo.codes = holds_codes(photo_path);
-        const bool turned = photo.orientation >= 5;
+        const bool turned = photo.orientation >= 5;  // EXIF: width and height are exchanged
         const auto [width, height] = std::pair(photo.image.width, photo.image.height);
         check_near("--corners", photo.corners, photo_path, turned ? height : width, turned ? width : height, 0.5);
     });

@@ -1,4 +1,4 @@
-// lfdsim compare with --corners: a photograph of a real display laid over a simulated view. Floor 5.
+// lfdsim compare with --corners: compares a photograph of a real display with a simulated view. Floor 5.
 #pragma once
 #include "cli/program/command.h"
 #include "image/formats/encoding.h"
@@ -14,7 +14,8 @@ class PhotoOptions {
 
     bool given() const { return corners_.given(); }
 
-    /// Compares and prints. `encoding`, of the photograph, and `crop`, of the view, are the command's other options.
+    /// Compares the files, prints the figures and writes the pictures that are asked for. `encoding`, of the photograph, and
+    /// `crop`, of the view, are the command's other options. Throws InputError for wrong options and unreadable files.
     void run(const std::string& view, const std::string& photograph, const Option& encoding, const Option& crop, bool json) const;
 
   private:

@@ -15,7 +15,7 @@
 #include <cctype>
 #include <cstdlib>
 
-// lfdsim doctor: what a report of a fault should hold, and the answer to "why is it slow", "why does it not read my model".
+// lfdsim doctor: prints what a bug report should contain, and what answers "why is it slow" and "why does it not read my model".
 namespace lfdsim::cli {
 namespace {
 
@@ -27,7 +27,7 @@ std::string model_reader() {
     }
 }
 
-// LFDSIM_KERNEL, and what is wrong with it.
+// The kernel that the environment variable LFDSIM_KERNEL names, or the error if it cannot be used; null if it is not set.
 Json forced_kernel() {
     const char* forced = std::getenv("LFDSIM_KERNEL");
     if (!forced || !*forced) return {};
@@ -38,7 +38,7 @@ Json forced_kernel() {
     }
 }
 
-// The GPUs, or what is missing.
+// The CUDA toolkit of the build, the driver, whether a GPU is used or why not, and each GPU.
 Json gpus() {
     const cuda::GpuSearch& found = found_gpus();
     Json all;
@@ -55,7 +55,7 @@ Json gpus() {
 
 Json findings() {
     Json sets = Json::array(), available = Json::array(), unavailable = Json::array();
-    // __builtin_cpu_supports takes literals only
+    // __builtin_cpu_supports() accepts only literals, so that a loop over names is impossible.
     const auto add = [&](const char* name, bool there) {
         if (there) sets.push_back(name);
     };

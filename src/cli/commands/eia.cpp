@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-// lfdsim eia: elemental images or a test pattern, in a file that the panel can be fed with: code values by the panel's encoding.
+// lfdsim eia: writes elemental images or a test pattern as a file that the panel can show: code values by the panel's encoding.
 namespace lfdsim::cli {
 namespace {
 
@@ -56,6 +56,7 @@ void run(const EiaArguments& args) {
     faults.of([&] { check_effects(args.command); });
     faults.report();
 
+    // The panel's picture: of views, a pattern or a model.
     const Geometry geometry = resolve(display);
     Picture picture;
     std::string of_views;
@@ -76,6 +77,7 @@ void run(const EiaArguments& args) {
         picture = std::move(made.picture);
         inverse = std::move(made.inverse);
     }
+    // The picture's file, and what is reported of it.
     if (inverse) {
         warn_of_inverse(*inverse);
         of_views += "; " + inverse_text(*inverse);

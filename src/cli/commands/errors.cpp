@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-// lfdsim errors: what is drawn for each lens of an array.
+// lfdsim errors: writes a table of the errors of every lens of an array: the random ones that errors.seed gives plus errors.table.
 namespace lfdsim::cli {
 namespace {
 

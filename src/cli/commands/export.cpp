@@ -21,8 +21,8 @@
 #include <fmt/format.h>
 #include <filesystem>
 
-// lfdsim export: the display as a scene for another renderer, with the command that renders it and the one that makes lfdsim's
-// picture of the same.
+// lfdsim export: writes the display as a scene for another renderer, with the command that renders it there and the one that
+// renders the same with lfdsim (docs/peers.md).
 namespace lfdsim::cli {
 namespace {
 
@@ -79,8 +79,9 @@ void check_folder(const std::string& folder) {
 
 constexpr const char* description_file = "display.toml";
 
-/// Throws InputError if the folder holds another display's scene, of which files by other names would stay beside this one's, or
-/// other files of this scene's names. The description is written first: with it, the rest is this scene's.
+/// Throws InputError if the folder holds another display's scene, because its files of other names would remain beside this one's,
+/// or files of other origin with this scene's names. If description_file has this text, all files are of this scene: it is the
+/// first text that is written.
 void keep_apart(const fs::path& folder, const Json& files, const std::string& description, bool replace) {
     const fs::path there = folder / description_file;
     const bool own = holds(there, description);
@@ -89,7 +90,8 @@ void keep_apart(const fs::path& folder, const Json& files, const std::string& de
     for (const std::string file : files) check_companion(folder / file, own, replace);
 }
 
-/// Lets the scene's folder hold the table of errors that its display.toml names: what is drawn is in it, too.
+/// Adds to the scene the table of lens errors that its display.toml then names. The table contains the random errors, too, so that
+/// their standard deviations become 0.
 void take_lens_table(PeerScene& scene) {
     Errors& errors = scene.shown.errors;
     if (!errors.given) return;
@@ -139,6 +141,7 @@ void run(const ExportArguments& args) {
     faults.of([&] { check_effects(args.command); });
     faults.report();
 
+    // The scene. A panel with subpixels becomes one of more, whole pixels.
     const Geometry geometry = resolve(display);
     const FinePanel fine = fine_panel(display);
     const Geometry shown_geometry = resolve(fine.display);
@@ -151,12 +154,14 @@ void run(const ExportArguments& args) {
     scene.deviations.insert(scene.deviations.end(), fine.deviations.begin(), fine.deviations.end());
     Json files = Json::array({scene.panel_file, description_file, "README.txt"});
     for (const PeerFile& file : scene.files) files.push_back(file.name);
+    // The panel's image is a file of the scene: its description needs no content.
     scene.shown.content.model.clear();
     scene.shown.content.objects.clear();
     const std::string description = write_display(scene.shown);
     for (const std::string file : files) refuse_input(folder / file);
     const FolderLock lock(folder);
     keep_apart(folder, files, description, args.replace);
+    // The panel's image, which may take long: after all checks.
     PanelTexels panel =
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     panel.texels = light_of_channel(std::move(panel.texels), options.channel);

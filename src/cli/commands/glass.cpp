@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-// lfdsim glass: the indices of a glass, or the names of all.
+// lfdsim glass: prints or plots the indices of a glass, or lists all glasses.
 namespace lfdsim::cli {
 namespace {
 
@@ -26,7 +26,7 @@ struct GlassArguments {
     Flag json = command.flag("--json", "Print results as JSON");
 };
 
-/// A glass and where its coefficients come from.
+/// A glass and the source of its coefficients.
 struct Sourced {
     Glass glass;
     std::string source;
@@ -39,6 +39,7 @@ Sourced sourced(const ShippedGlass& s) {
 
 constexpr std::string_view channels[] = {"red", "green", "blue"};
 
+/// The glass with its indices in air; null at wavelengths that its coefficients do not cover.
 Json to_json(const Sourced& s) {
     const Glass& glass = s.glass;
     const auto index = [&](double nm) { return glass.covers(nm) ? number_json(index_of(glass, nm)) : Json(); };
@@ -101,7 +102,8 @@ void list(const std::vector<Sourced>& all, bool as_json) {
     as_json ? print_json(json) : print(text);
 }
 
-/// n against the wavelength: in visible light, or over the whole range of a glass that does not hold there.
+/// The plot of n over the wavelength: the part of 380 to 780 nm that the glass's coefficients cover, or their whole range if they
+/// cover none of it.
 std::string plot(const Glass& glass) {
     constexpr double violet_nm = 380, red_nm = 780;
     const bool visible = glass.range_nm[0] < red_nm && glass.range_nm[1] > violet_nm;
@@ -129,7 +131,7 @@ void check_plot(const GlassArguments& args) {
     detail::check_replaceable(path);
 }
 
-/// Prints the warnings of one glass, or of the first few.
+/// Prints the warnings of the named glass; without a name those of all glasses, at most `most_told` of them.
 void warn_of(const GlassCatalogue& catalogue, const std::string& name) {
     constexpr std::size_t most_told = 10;
     std::size_t count = 0;

@@ -13,8 +13,8 @@
 #include <optional>
 #include <variant>
 
-// lfdsim import: a lens that was drawn in a lens design program becomes the lens of a display, the calibration of a lenticular
-// display a description of it.
+// lfdsim import: writes a description with a lens from a lens design program, or of the lenticular display of which a file holds
+// the calibration (docs/import.md).
 namespace lfdsim::cli {
 namespace {
 
@@ -50,7 +50,7 @@ struct ImportArguments {
                                   "the panel; default: lenses without aberrations, in air");
 };
 
-/// A length or factor, where one is given.
+/// Sets a length, mm, or a factor, 1e-6 to 1e6, if the option is given.
 template <class Number>
 void read_positive(const Option& option, Number& to, Faults& faults) {
     faults.of(option, [&] {
@@ -61,6 +61,7 @@ void read_positive(const Option& option, Number& to, Faults& faults) {
     });
 }
 
+/// The replacement that --glass NAME=OTHER, NAME=ND or NAME=ND,VD asks for. Throws InputError.
 GlassChoice glass_choice(const std::string& text, const std::vector<GlassCatalogue>& catalogues) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -77,7 +78,7 @@ GlassChoice glass_choice(const std::string& text, const std::vector<GlassCatalog
     return {name, {}, Glass{"", Formula::nd_vd, nd_vd}};
 }
 
-/// Refuses options that have no effect on such a file.
+/// Reports options that have no effect on a file of this kind; `calibrated`: a calibration, else a lens.
 void check_unused(const Command& command, bool calibrated, Faults& faults) {
     constexpr const char* of_lenses[] = {"--flip",  "--scale",     "--pitch-mm",   "--semi-aperture-mm",
                                          "--glass", "--catalogue", "--panel-inch", "--pixels"};
@@ -123,7 +124,7 @@ ImportRequest lens_request(const ImportArguments& args) {
     return request;
 }
 
-/// Catalogues are named in a description as they are seen from its folder.
+/// The files by their paths relative to the description's folder, as a description names its catalogues.
 std::vector<std::string> seen_from(const fs::path& description, std::vector<std::string> files) {
     for (std::string& file : files) file = fs::absolute(file).lexically_proximate(fs::absolute(description).parent_path()).string();
     return files;
@@ -162,7 +163,7 @@ void run(const ImportArguments& args) {
     Imported made = calibrated ? import_calibration(std::get<Calibration>(*file), for_calibration, path)
                                : import_lens(std::get<DrawnLens>(std::move(*file)), for_lens);
     if (made.display.name.empty()) made.display.name = fs::path(args.output.path()).stem();
-    // Comments name the file, not where it lies on this machine.
+    // Comments of the description name the file without its folder on this machine.
     if (fs::path(path).is_absolute())
         for (std::string& place : made.surfaces)
             if (place.starts_with(path)) place.replace(0, path.size(), fs::path(path).filename().string());

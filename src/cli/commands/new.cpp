@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <functional>
 
-// lfdsim new: a commented description of a first-order design.
+// lfdsim new: writes a commented description of a first design (docs/model.md, "First designs").
 namespace lfdsim::cli {
 namespace {
 
@@ -92,12 +92,14 @@ LenticularRequest lenticular_request(const NewArguments& args) {
     return request;
 }
 
+/// The warnings that `lfdsim check` prints for the display.
 std::vector<std::string> told_by_check(const Display& d) {
     const Geometry g = resolve(d);
     return worth_knowing(d, g, theory(d, g));
 }
 
-/// The widest field of view, below that of a design, of which `check` has nothing to say.
+/// A line with the widest field of view, of 0.9, 0.8 ... 0.3 times a design's, for which `check` prints no warning; empty if there
+/// is none.
 template <class Request, class Design>
 std::string narrower(Request request, Design (*design)(const Request&), double fov_deg) {
     for (int tenths = 9; tenths >= 3; --tenths) {
@@ -109,13 +111,14 @@ std::string narrower(Request request, Design (*design)(const Request&), double f
             if (told_by_check(made.display).empty())
                 return fmt::format("  A narrower field of view, --fov-deg {:g}, would give no advice.\n", fov);
         } catch (const InputError&) {
-            break;  // of a narrower field lenses stand farther from the panel
+            break;  // lenses of a still narrower field are even farther from the panel
         }
     }
     return {};
 }
 
-/// Names the design, writes it and says what it is, and of what `check` would warn. `narrower`: designs with a narrower field.
+/// Names the design after its file, writes it, and prints `what` it is and the warnings of `check`. `narrower` gives the advice of
+/// narrower(), which is added to warnings.
 template <class Design>
 void finish(const NewArguments& args, Design& made, std::string (*write)(const Design&, const std::string&),
             const std::string& what, const std::function<std::string()>& narrower) {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-// lfdsim photo: the model itself before the same camera, with the same shading; what a view of the display is measured against.
+// lfdsim photo: renders the model itself, with the same camera and shading. It is the reference for views of the display.
 namespace lfdsim::cli {
 namespace {
 
@@ -19,7 +19,7 @@ struct PhotoArguments {
     WorkOptions work{command};
 };
 
-// A pinhole that looks through pixel centres casts one ray a pixel.
+// Throws InputError if options of sampling are given for a pinhole that looks through pixel centres: it casts one ray a pixel.
 void refuse_idle_samples(const PhotoArguments& args, const Camera& camera) {
     if (camera.pupil_diameter_mm || camera.pixel_filter == PixelFilter::box) return;
     for (const KeyOption& option : point_options)

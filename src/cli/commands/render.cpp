@@ -21,7 +21,8 @@
 #include <spdlog/spdlog.h>
 #include <chrono>
 
-// lfdsim render: panel image in, camera picture out. All that can be wrong with the command line is told before work begins.
+// lfdsim render: renders what a camera sees of a panel image, a pattern or a model. All faults of the command line are reported,
+// together, before work begins.
 namespace lfdsim::cli {
 namespace {
 
@@ -49,7 +50,7 @@ struct RenderArguments {
 void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
                    const std::function<PanelTexels()>& light, Progress& progress) {
     const Json shown = shown_stamp(args.panel_image, args.pattern, display);
-    PanelTexels panel;
+    PanelTexels panel;  // empty if no frame was left to render
     const auto texels = [&]() -> const Texels& {
         panel = light();
         return panel.texels;
@@ -103,7 +104,7 @@ void run(const RenderArguments& args) {
     faults.of([&] { args.exposure.check(); });
     faults.of([&] { check_effects(args.command); });
     faults.report();
-    if (path) args.path.check(*path, display);
+    if (path) args.path.check(*path, display);  // only now, because it needs a display without faults
 
     const Geometry geometry = resolve(display);
     Progress progress(args.work.progress());
@@ -116,6 +117,7 @@ void run(const RenderArguments& args) {
     const PanelTexels panel = light();
     Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
                        : render(display, geometry, panel.texels, options, progress);
+    // The exposure scales the finished picture and its error.
     const std::optional<double> exposure = args.exposure.factor(display, geometry, options, progress);
     if (exposure) ExposureOption::apply(*exposure, r);
     Rendered facts = rendered(r, target, keeps_layers(args.output.path()));

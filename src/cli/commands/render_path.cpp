@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Reports the pixels of one frame to the job of all frames, whose stage stays.
+// The job of one frame: reports its pixels to the job of all frames, but not its stages, so that one bar shows the whole path.
 class FrameJob : public Job {
   public:
     explicit FrameJob(Job& whole) : whole_(whole) {}
@@ -85,7 +85,8 @@ void PathOptions::check(const CameraPath& path, const Display& display) const {
         camera.target_mm = path.poses[i].target_mm.value_or(camera.target_mm);
         judge(camera, fmt::format("poses[{}]", i));
     }
-    for (std::int64_t k = 0; k < path.frames(); ++k)  // between two good poses a camera may look along its own "up"
+    // Between two valid poses a frame may be invalid: its camera may look along its "up" direction.
+    for (std::int64_t k = 0; k < path.frames(); ++k)
         judge(path.camera(k, display.camera), fmt::format("frame {} at {:.6g} s", k, path.time_s(k)));
 }
 
@@ -95,6 +96,7 @@ fs::path PathOptions::file(const OutputOptions& output, std::int64_t frame, std:
 }
 
 PathMade render_path(const PathWork& w, const std::function<const Texels&()>& panel, Progress& progress) {
+    // The frames that are left. Whether they can be written is checked before the panel's light is made.
     PathMade made;
     made.frames = w.path.frames();
     const FolderLock lock(w.output.path());
@@ -112,6 +114,8 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     frames.keep_apart();
     const std::vector<std::int64_t> left = frames.left();
     if (left.empty()) return made;
+
+    // The frames, each written as soon as it is rendered.
     const SummedPanel summed(panel(), w.rendering.threads);
     const auto [columns, rows] = w.display.camera.resolution;
     const std::optional<Rect>& crop = w.rendering.crop;
@@ -135,7 +139,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
         made.samples += r.samples;
         made.seconds += r.seconds;
         above_target += facts.pixels_above_target;
-        if (r.measured_error.value_or(0) >= largest_error) {  // that frame tells of all
+        if (r.measured_error.value_or(0) >= largest_error) {  // the frame with the largest error is the one that is reported
             largest_error = r.measured_error.value_or(0);
             made.how = how_made(r);
             made.more = how_made_json(r);

@@ -18,13 +18,14 @@ class PathOptions {
   public:
     explicit PathOptions(Command command) : command_(command) {}
     bool given() const { return path_.given(); }
-    /// Throws InputError if there is a path and the pictures cannot be made so.
+    /// Throws InputError if there is a path and its frames cannot be written as the options ask for.
     void check(const OutputOptions&) const;
     /// Throws InputError if the file cannot be read.
     CameraPath read() const;
-    /// Throws InputError with the file and the pose, or the frame, unless the camera can stand wherever the path leads.
+    /// Throws InputError, which names the file and the pose or frame, unless the display is valid with the camera of every pose and
+    /// frame of the path.
     void check(const CameraPath&, const Display&) const;
-    /// The file of one of `frames` frames: 0000.png.
+    /// The file of frame `frame` of `frames`: its number, from 0, in at least four digits, as in 0000.png.
     std::filesystem::path file(const OutputOptions&, std::int64_t frame, std::int64_t frames) const;
     bool resume() const { return resume_; }
     bool replace() const { return replace_; }
@@ -45,18 +46,19 @@ struct PathWork {
     const CameraPath& path;
     const Display& display;
     const RenderOptions& rendering;
-    std::string shown;  // what tells that what the panel shows has changed
+    std::string shown;  // changes with the files of which the panel's light is made, as NumberedPictures::shown
 };
 
+/// The outcome of a path.
 struct PathMade {
-    std::int64_t frames = 0, rendered = 0, samples = 0;  // rendered: by this run
-    double seconds = 0;
-    std::string how;             // "filtered, avx2, 2 threads"; empty if nothing was left to render
-    Json more = Json::object();  // for --json
+    std::int64_t frames = 0, rendered = 0, samples = 0;  // frames: of the path; rendered, samples: by this run
+    double seconds = 0;                                  // of rendering
+    std::string how;                                     // "filtered, avx2, 2 threads"; empty if no frame was rendered
+    Json more = Json::object();                          // for --json
 };
 
-/// Writes the frames, in order; those that are finished stay, whatever becomes of the rest. `panel` gives the panel's light, which
-/// is asked for once it is sure that frames can be written and are left to be made. Throws InputError, Interrupted.
+/// Writes the frames, in order; finished ones stay, whatever happens to the rest. Calls `panel`, which gives the panel's light,
+/// only after it is certain that frames can be written and are left to be made. Throws InputError, and Interrupted after a signal.
 PathMade render_path(const PathWork&, const std::function<const Texels&()>& panel, Progress&);
 
 }  // namespace lfdsim::cli

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-// lfdsim sheet: pictures side by side, for the eye. One picture at a time is in memory at full size.
+// lfdsim sheet: writes pictures side by side, with labels, in one picture. Only one of them at a time is in memory at full size.
 namespace lfdsim::cli {
 namespace {
 
@@ -54,6 +54,7 @@ void run(const SheetArguments& args) {
 
     double cell_pixels = 0;
     for (const Image& cell : cells) cell_pixels += double(cell.width) * cell.height;
+    // Bytes of the cells and of the sheet, 12 a pixel, and a tenth more.
     require_memory("--width-px", fmt::format("{} {} pixels wide, and the sheet", counted(cells.size(), "picture"), width),
                    2.2 * 12 * cell_pixels);
     const Image sheet = contact_sheet(cells, labels, int(columns));

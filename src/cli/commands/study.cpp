@@ -10,13 +10,13 @@
 #include <system_error>
 #include <vector>
 
-// lfdsim study and lfdsim tolerance: commands of the Python package, in whose process this one goes on.
+// lfdsim study and lfdsim tolerance: commands of the Python package. This process becomes the Python interpreter that runs them.
 namespace lfdsim::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The Python that the module was built for, if it is still there; else that of the PATH.
+// The Python interpreter that the module was built for, if it still exists; else the first of PATH.
 std::string interpreter() {
 #ifdef LFDSIM_PYTHON_INTERPRETER
     if (access(LFDSIM_PYTHON_INTERPRETER, X_OK) == 0) return LFDSIM_PYTHON_INTERPRETER;
@@ -24,7 +24,7 @@ std::string interpreter() {
     return "python3";
 }
 
-// In a build the package lies beside the program; else it is one that Python has.
+// Adds the folder of the package to PYTHONPATH if it is beside the program, as in a build; an installed one is found by Python.
 void show_package() {
     std::error_code error;
     const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path() / "python";
@@ -33,7 +33,7 @@ void show_package() {
     setenv("PYTHONPATH", (others && *others ? folder.string() + ":" + others : folder.string()).c_str(), 1);
 }
 
-// Modules are not searched for where the user stands: a random.py there is none of Python's.
+// The script does not import modules from the working directory: a random.py there is not Python's.
 constexpr const char* script = R"python(import sys
 sys.path = [folder for folder in sys.path if folder]
 try:

@@ -18,7 +18,7 @@
 #include <chrono>
 #include <thread>
 
-// lfdsim view: serves the display to browsers until it is stopped.
+// lfdsim view: serves the display to browsers until a signal stops it (docs/view.md).
 namespace lfdsim::cli {
 namespace {
 
@@ -43,12 +43,13 @@ struct ViewArguments {
     Option threads = command.option("--threads", "N", "Default: all processors");
 };
 
-// A name that a browser elsewhere can use, if the program listens to more than one.
+// The host of the address that is printed: "localhost" if the program listens on all addresses, an IPv6 address in brackets.
 std::string address(const std::string& host) {
     if (host == "0.0.0.0" || host == "::") return "localhost";
     return host.find(':') == host.npos ? host : "[" + host + "]";
 }
 
+/// The secret that a browser must give: the option's, 16 to 128 letters and digits, or a random one. Throws InputError.
 std::string token_of(const ViewArguments& args) {
     const std::string& token = args.token.text();
     if (token.empty()) return view::make_token();
@@ -83,6 +84,7 @@ void run(const ViewArguments& args) {
     start.panel_image = args.panel_image.path();
     start.pattern = args.pattern.text();
 
+    // The folder that browsers may load from. Messages to them are sent without the paths of other folders.
     std::filesystem::path folder = args.folder.empty() ? start.display.parent_path() : std::filesystem::path(args.folder.text());
     if (folder.empty()) folder = ".";
     const view::Library library(start, folder);
@@ -90,6 +92,7 @@ void run(const ViewArguments& args) {
     for (const auto& file : {start.display, std::filesystem::path(start.model), start.panel_image})
         if (file.has_parent_path()) elsewhere.push_back(file.parent_path());
     options.as_told = [hidden = view::HiddenPaths(folder, elsewhere)](const std::string& text) { return hidden.without(text); };
+    // The panel is prepared before the address is printed: a description that cannot be shown ends the command here.
     view::Panels panels;
     Job nobody;
     if (args.panel_image.given()) args.panel_image.warn(display);

@@ -25,14 +25,14 @@
 #include <algorithm>
 #include <cmath>
 
-// lfdsim views: the grid of views, or the quilt, that the content or the simulated display shows.
+// lfdsim views: writes a grid of views, or a quilt, of the content or of what the simulated display shows (docs/views.md).
 namespace lfdsim::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t content_rays = 4;  // of a pixel, where nothing else is asked for
-constexpr std::int64_t default_columns = 480;
+constexpr std::int64_t content_rays = 4;       // a pixel, if neither --samples nor render.samples is given
+constexpr std::int64_t default_columns = 480;  // pixels of a view along its width
 
 struct ViewsArguments {
     Command command;
@@ -62,13 +62,14 @@ struct ViewsArguments {
 
 /// The output of the views, and their number.
 struct Target {
-    bool quilt = false;
-    QuiltName name{};  // of a quilt
-    int columns = 9, rows = 9;
+    bool quilt = false;         // one picture; else a folder
+    QuiltName name{};           // of a quilt
+    int columns = 9, rows = 9;  // of the grid of cameras; a quilt is one row of them, broken into its tiles
     int width = 0, height = 0;  // of a view, pixels
-    std::string how;            // the cameras of a view cone stand
+    std::string how;            // the view cone by which the cameras are placed, as of views_toml(); empty: no cone
 };
 
+/// The output that the options ask for, without width, height and how, which grid_of() sets. Throws InputError.
 Target target_of(const ViewsArguments& args, const Display& display) {
     Target target;
     const fs::path path = args.output.path();
@@ -120,9 +121,11 @@ Target target_of(const ViewsArguments& args, const Display& display) {
     return target;
 }
 
-/// The grid that is asked for: a view cone as wide as the lenses' field of view, seen from the viewing distance.
+/// The grid that is asked for: by default the cameras of a view cone as wide as the lenses' field of view, at the viewing distance.
+/// Completes `target`. Throws InputError for impossible sizes and grids, and if the memory does not suffice.
 ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& args, const Display& display,
                  const Geometry& geometry) {
+    // Pixels of a view: the aspect (width / height) is that of the quilt's name, of --view-size, or of the panel.
     double aspect = geometry.panel_width_mm / geometry.panel_height_mm;
     if (target.quilt) aspect = target.name.aspect;
     if (!args.size.empty()) {
@@ -144,7 +147,8 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
                          fmt::format("makes a quilt of {} x {} pixels; allowed is a product below 2^31", columns, rows));
     require_picture_memory(columns, rows, args.of_display() ? texel_bytes(display) : 0);
 
-    ViewsSource all;  // views that are to be made are placed as those that are read
+    // The cameras: views that are to be made are placed by the same rules as views that are read.
+    ViewsSource all;
     all.name = "the grid";
     if (target.quilt) all.form = ViewsForm::quilt;
     all.columns = target.columns;
@@ -162,7 +166,7 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
     std::vector<std::string> notes;
     const ViewsPlace place = views_place(display, geometry);
     const ViewGrid grid = placed(all, wish, place, aspect, notes);
-    // From the edge of the zone an eye sees the views of two neighbouring lenses.
+    // At the edge of its zone an eye sees the views of two neighbouring elemental images.
     const double outermost = grid.camera(grid.columns - 1, 0)[0];
     if (args.of_display() && grid.columns > 1 && outermost > 0.499 * place.zone_width_mm)
         spdlog::warn(
@@ -172,9 +176,10 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
     return grid;
 }
 
-/// Makes the views one after another.
+/// Makes the views of a grid. All arguments have to outlive it.
 class ViewsMaker {
   public:
+    /// Throws InputError if views are of the display and a camera of the grid is within it, or too far aside to see it.
     ViewsMaker(const ViewsArguments& args, const Display& display, const Geometry& geometry, const ViewGrid& grid,
                const Target& target, std::string device)
         : args_(args), display_(display), geometry_(geometry), grid_(grid), target_(target), device_(std::move(device)) {
@@ -185,7 +190,7 @@ class ViewsMaker {
     }
     bool of_display() const { return args_.of_display(); }
 
-    /// Throws InputError, and Interrupted.
+    /// Loads the content, or makes the panel's light that views of the display show. Throws InputError, and Interrupted.
     void prepare(const PatternOptions& pattern_options, Progress& progress) {
         if (!of_display()) {
             scene_.emplace(load_scene(display_, geometry_));
@@ -195,6 +200,7 @@ class ViewsMaker {
             shown_panel(args_.panel_image, args_.pattern, display_, geometry_, pattern_options, args_.work.threads(), progress);
         panel_.emplace(light_.texels, args_.work.threads());
     }
+    /// The view of a camera of the grid, linear light, after prepare().
     Picture view(int column, int row, Job& job) {
         if (scene_) return scene_view(*scene_, geometry_, grid_, column, row, making(), job);
         RenderOptions options;
@@ -204,6 +210,7 @@ class ViewsMaker {
                                 target_.width, target_.height, options, job);
         return {std::move(r.image), r.complete, r.samples, 0, r.seconds};
     }
+    /// The depth map of a view of the content.
     Picture depth(int column, int row, Job& job) const {
         return scene_view_depth(*scene_, geometry_, grid_, column, row, making(), job);
     }
@@ -224,6 +231,7 @@ class ViewsMaker {
     std::optional<SummedPanel> panel_;
 };
 
+/// Adds the rays and seconds of a view to those of all.
 Picture& add(Picture& all, const Picture& one) {
     all.rays += one.rays;
     all.seconds += one.seconds;
@@ -232,7 +240,8 @@ Picture& add(Picture& all, const Picture& one) {
 
 fs::path beside_quilt(const ViewsArguments& args) { return fs::path(args.output.path()).replace_extension(".toml"); }
 
-/// The quilt and, beside it, NAME.toml: its geometry.
+/// Writes the quilt and, beside it, NAME.toml with its geometry. The first view is the tile at the lower left, and rows of tiles go
+/// up (docs/views.md). Throws Interrupted.
 Picture make_quilt(ViewsMaker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid,
                    const Target& target, Progress& progress) {
     Picture all{Image(target.width * target.name.columns, target.height * target.name.rows)};
@@ -253,7 +262,8 @@ Picture make_quilt(ViewsMaker& maker, const ViewsArguments& args, const Display&
     return all;
 }
 
-/// view_0000.png ..., a depth map with each, and views.toml.
+/// Writes view_0000.png ..., a depth map for each if asked for, and views.toml. The returned picture has the size of a view, and no
+/// pixels. Throws Interrupted.
 Picture make_folder(ViewsMaker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid,
                     const Target& target, const ViewsFolder& folder, Progress& progress) {
     const FolderLock lock(args.output.path());
@@ -310,6 +320,7 @@ void run(const ViewsArguments& args) {
     faults.of([&] { target = target_of(args, display); });
     faults.report();
 
+    // Outputs are checked before the content is loaded.
     const Geometry geometry = resolve(display);
     const ViewGrid grid = grid_of(wish, target, args, display, geometry);
     if (args.of_display() && !args.panel_image.given()) require_panel_memory(display);
