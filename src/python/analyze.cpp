@@ -39,7 +39,7 @@ struct Measured {
     double seconds;
     std::vector<std::string> notes;  // what was dropped from the model's files or repaired
 
-    /// {"table": {"column": values}}
+    /// The tables: {"table": {"column": values}}.
     nb::typed<nb::dict, std::string, nb::typed<nb::dict, std::string, Numbers>> tables() const {
         nb::dict all;
         for (const DataTable& table : result.tables) {
@@ -49,20 +49,21 @@ struct Measured {
         }
         return all;
     }
-    /// Curves and maps as SVG.
+    /// Curves and maps as SVG: {"plot": text}.
     nb::typed<nb::dict, std::string, std::string> plots() const {
         nb::dict all;
         for (const Plot& plot : result.plots) all[plot.name.c_str()] = svg(plot);
         for (const ColourMap& map : result.maps) all[map.name.c_str()] = svg(map);
         return all;
     }
-    /// {"picture": (caption, array)}
+    /// The pictures: {"picture": (caption, array)}.
     nb::typed<nb::dict, std::string, nb::typed<nb::tuple, std::string, Pictured>> pictures() const {
         nb::dict all;
         for (const NamedPicture& picture : result.pictures)
             all[picture.name.c_str()] = nb::make_tuple(picture.caption, array_of(Image(picture.image)));
         return all;
     }
+    /// The findings as a list in JSON; numbers that are not finite become null.
     std::string findings() const {
         Json all = Json::array();
         for (const Finding& f : result.findings)
@@ -75,7 +76,8 @@ struct Measured {
         return dump(all);
     }
 
-    /// The files and the report that `lfdsim analyze` writes.
+    /// Writes the files and the report that `lfdsim analyze` writes. Throws InputError for a folder of other results, unless
+    /// `replace`.
     void save(const std::string& place, const std::string& command, bool replace) const {
         run(nb::none(), [&](Job&) {
             const Subject subject(display, {}, options);
@@ -111,6 +113,7 @@ void check_options(const AnalysisOptions& options) {
     if (!problems.empty()) throw InputError(problems);
 }
 
+/// Runs the measure of a name; options and display are checked before the model is read. Throws InputError.
 std::shared_ptr<Measured> analyze(const Display& display, const std::string& name, AnalysisOptions options,
                                   const nb::object& progress) {
     const Measure& measure = measure_named(name);
@@ -135,6 +138,7 @@ std::shared_ptr<Measured> analyze(const Display& display, const std::string& nam
     return made;
 }
 
+/// The measures in the order of the report: [(name, title, meaning, source)].
 nb::typed<nb::list, nb::typed<nb::tuple, std::string, std::string, std::string, std::string>> all_measures() {
     nb::list all;
     for (const Measure& m : measures())

@@ -16,8 +16,8 @@ namespace {
 
 namespace nb = nanobind;
 
-/// Copies rows of three values to rows of `stride` floats, all threads together. Returns the number of the first pixel with a value
-/// that is not within `least` and the greatest float, or -1.
+/// Copies pixels of three values to pixels of `stride` floats, by light(value), on all threads. Returns the number of the first
+/// pixel with light that is not within `least` and the greatest float (NaN is not), or -1.
 template <class Value, class Light>
 std::int64_t copy(const Pixels<Value>& from, float* to, int stride, float least, const Light& light) {
     const auto rows = std::int64_t(from.shape(0)), columns = std::int64_t(from.shape(1));
@@ -32,7 +32,7 @@ std::int64_t copy(const Pixels<Value>& from, float* to, int stride, float least,
                 good = good && out[c] >= least && out[c] <= std::numeric_limits<float>::max();
             }
             if (good) continue;
-            std::int64_t first = bad;
+            std::int64_t first = bad;  // keeps the minimum over the rows, which end in any order
             while (row * columns + column < first && !bad.compare_exchange_weak(first, row * columns + column)) {
             }
             return;
@@ -41,7 +41,8 @@ std::int64_t copy(const Pixels<Value>& from, float* to, int stride, float least,
     return bad == std::numeric_limits<std::int64_t>::max() ? -1 : std::int64_t(bad);
 }
 
-/// Fills memory of the array's size. Throws InputError.
+/// Fills `to`, which has `stride` floats a pixel, with the array's light. Only floats are checked: codes become light in 0 .. 1.
+/// Throws InputError as texels_of() if `panel`, else as image_of().
 void fill(const AnyPixels& pixels, float* to, int stride, Encoding encoding, bool panel, const std::string& name) {
     const float least = panel ? 0 : std::numeric_limits<float>::lowest();
     if (const auto* light = std::get_if<Pixels<float>>(&pixels)) {

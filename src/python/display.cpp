@@ -21,7 +21,7 @@ namespace {
 namespace nb = nanobind;
 namespace fs = std::filesystem;
 
-/// Paths that do not depend on the working directory, which may be another one later or in another process.
+/// The display with absolute paths of all its files: the working directory may be another one later, or in another process.
 Display placed(Display display) {
     visit_files(display, [](const std::string&, std::string& file) {
         if (!file.empty() && !file.starts_with("built-in:")) file = fs::absolute(file).lexically_normal().string();
@@ -29,7 +29,7 @@ Display placed(Display display) {
     return display;
 }
 
-/// As DisplayFault what is wrong with a description.
+/// The display that display() reads, as of placed(). Throws DisplayFault with the problems of an InputError.
 template <class Read>
 Display read(const Read& display) {
     try {
@@ -39,13 +39,15 @@ Display read(const Read& display) {
     }
 }
 
+/// The display with overrides, "KEY=VALUE" as of the option --set.
 Display changed(const Display& display, const std::vector<std::string>& overrides) {
     Display made = read([&] { return parse_display(write_display(display), "display", overrides); });
+    // The text lacks the catalogues, because it has the coefficients of their glasses; later overrides may name glasses of them.
     if (made.glass_catalogues.empty()) made.glass_catalogues = display.glass_catalogues;
     return made;
 }
 
-// A key's value as Python has it: lists as tuples, words as strings, None where it is absent.
+// A key's value as a Python object: lists become tuples, words become strings, and an absent value None.
 template <class T>
 nb::object object_of(const T& value) {
     if constexpr (has_words<T>)
@@ -84,7 +86,7 @@ nb::object object_of(const std::optional<T>& value) {
     return value ? object_of(*value) : nb::none();
 }
 
-/// {"panel.pixels": (3840, 2160), ...}, in the order of a description.
+/// The values of all keys, {"panel.pixels": (3840, 2160), ...}, in the order of a description.
 nb::typed<nb::dict, std::string, nb::any> values(const Display& display) {
     nb::dict all;
     visit_all(display, [&](const std::string& path, const KeyInfo&, ConstValueRef value, ConstValueRef) {
@@ -105,14 +107,14 @@ std::string without_numbers(std::string_view path) {
     return all;
 }
 
-/// Whether a description may have such a key or table.
+/// Whether a description may have a key or table of this path.
 bool known(std::string_view path) {
     if (key_at(path)) return true;
     const std::string table = without_numbers(path);
     return std::ranges::any_of(format_tables(), [&](const FormatTable& t) { return !t.path.empty() && t.path == table; });
 }
 
-/// The known key or table that was most likely meant; empty if none is near.
+/// The known key or table whose path is most similar; empty if none is near.
 std::string meant(std::string_view path) {
     std::vector<std::string> all;
     for (const FormatTable& table : format_tables()) {
@@ -124,7 +126,8 @@ std::string meant(std::string_view path) {
     return std::string(nearest(path, candidates));
 }
 
-/// What a key has without being given, in TOML; None where it can be left out of a description, or must not be.
+/// The default of a key whose values are words or text: an override KEY=DEFAULT resets it. None for all other keys, which KEY=none
+/// resets, and for required and unknown ones.
 nb::object default_word(std::string_view path) {
     const FormatTable::Value* const found = key_at(path);
     if (!found || found->key.required) return nb::none();
@@ -140,7 +143,7 @@ nb::object default_word(std::string_view path) {
         found->fresh);
 }
 
-/// With another model in place of all that it shows.
+/// The display with a model in place of its content. Throws InputError if the name is empty.
 Display with_model(Display display, const std::string& model) {
     if (model.empty()) throw InputError("model", "the name is empty; give a mesh file or built-in:spheres");
     display.content.model = model;
@@ -148,12 +151,13 @@ Display with_model(Display display, const std::string& model) {
     return placed(std::move(display));
 }
 
-/// The display from the side, and a few of its lenses, to scale: SVG.
+/// Drawings to scale, as SVG: the display from the side, and a few of its lenses.
 std::pair<std::string, std::string> drawings(const Display& display) {
     const Subject subject(display, {}, {});
     return {side_view_svg(subject), lens_view_svg(subject)};
 }
 
+/// The JSON that `lfdsim check --json` prints; without `warnings`, for which rays are traced and content is read, it is fast.
 std::string check(const Display& display, const nb::object& progress, bool warnings) {
     Json json;
     run(progress, [&](Job&) { json = check_json(display, warnings); });

@@ -7,14 +7,14 @@
 #include <nanobind/stl/string_view.h>
 #include <new>
 
-// lfdsim._core: what the Python package in python/lfdsim needs of the program. Names and arguments that users see are in the
+// lfdsim._core: the functions that the Python package in python/lfdsim calls. Names, defaults and texts that users see are in the
 // package.
 namespace lfdsim::python {
 namespace {
 
 namespace nb = nanobind;
 
-/// Makes lfdsim.errors.NAME of (where, what) pairs the current exception.
+/// Sets Python's current exception to lfdsim.errors.NAME of [(where, what)].
 void raise(const char* name, const InputError& error) {
     nb::list problems;
     for (const Problem& p : error.problems)
@@ -23,6 +23,7 @@ void raise(const char* name, const InputError& error) {
     PyErr_SetObject(type.ptr(), type(problems).ptr());
 }
 
+/// Translates exceptions of C++ for nanobind, which handles those that leave this function.
 void translate(const std::exception_ptr& thrown, void*) {
     try {
         std::rethrow_exception(thrown);

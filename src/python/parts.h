@@ -1,4 +1,4 @@
-// The parts of the module lfdsim._core, each in a file of its own. Floor 5.
+// The parts of the module lfdsim._core, each in a separate file. Floor 5.
 #pragma once
 #include "base/input_error.h"
 
@@ -6,7 +6,7 @@
 
 namespace lfdsim::python {
 
-/// What is wrong with a display's description: lfdsim.DisplayError. Any other InputError is lfdsim.InputError.
+/// Faults of a display's description, which Python gets as lfdsim.DisplayError; any other InputError becomes lfdsim.InputError.
 struct DisplayFault : InputError {
     using InputError::InputError;
 };

@@ -16,12 +16,13 @@
 
 #include <optional>
 
-// Photographs of real displays over views of simulated ones, and pictures as files' bytes.
+// Comparisons of photographs of real displays with views of simulated ones; pictures as the bytes of PNG files.
 namespace lfdsim::python {
 namespace {
 
 namespace nb = nanobind;
 
+/// The corners of the screen in a view of the display's camera, pixels. Throws InputError if it has no four corners there.
 Corners screen_corners(const Display& display) {
     const ScreenCorners corners = lfdsim::screen_corners(display, resolve(display));
     if (!corners.at)
@@ -29,6 +30,8 @@ Corners screen_corners(const Display& display) {
     return *corners.at;
 }
 
+/// Lays a photograph over a view and compares them. Both corners are those of the screen, in pixels of their picture; `crop` is a
+/// part of the view; `linear`: the photograph's codes are linear light, else sRGB. Throws InputError.
 Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& corners, const Corners& view_corners,
                 const std::optional<std::array<int, 4>>& crop, bool linear, bool fit_corners, bool fit_blur) {
     const auto columns = int(columns_of(view)), rows = int(rows_of(view));

@@ -38,13 +38,15 @@ std::optional<Rect> rect_of(const std::optional<Corners>& c) {
 
 using Notes = std::vector<std::string>;
 
-/// A picture, and what there is to warn of.
+/// A picture, and the warnings of making it.
 struct PictureWithWarnings {
     Image image;
     Notes notes;
+    /// Moves the picture into a Python object; needs Python's lock.
     nb::typed<nb::tuple, Pictured, Notes> objects() { return nb::make_tuple(array_of(std::move(image)), notes); }
 };
 
+/// The panel's picture of the display's content, linear light. Throws InputError.
 PictureWithWarnings elemental(const Display& display, const Geometry& geometry, int threads, Job& job) {
     require_panel_memory(display);
     PictureWithWarnings made;
@@ -65,6 +67,7 @@ nb::typed<nb::tuple, Pictured, Notes> elemental_images(const Display& display, i
     return made.objects();
 }
 
+/// The panel's picture that best shows the wanted pictures, linear light, to the eyes (docs/inverse.md).
 nb::typed<nb::tuple, Pictured, Notes> invert_pictures(const Display& display, const std::vector<Pixels<float>>& targets,
                                                       const std::vector<Vec3d>& eyes_mm, int threads, const nb::object& progress) {
     PictureWithWarnings made;
@@ -97,7 +100,7 @@ struct PreparedPanel {
     ShownPanel shown;
 };
 
-/// Throws InputError with both sizes.
+/// Throws InputError, which states both sizes, unless the picture has the panel's pixels.
 void check_size(std::int64_t columns, std::int64_t rows, const Display& display) {
     const auto [its_columns, its_rows] = display.panel.pixels;
     if (columns != its_columns || rows != its_rows)
@@ -118,7 +121,8 @@ std::shared_ptr<const PreparedPanel> prepare(const Display& display, const AnyPi
     return made;
 }
 
-/// The picture, what there is to warn of, and the seconds that a caller in C++ would have waited.
+/// Renders the display with a prepared panel, else with the panel's picture `pixels`, else with the display's content. Returns the
+/// picture, the warnings, and the seconds that rendering takes in C++, without the content and without Python.
 nb::typed<nb::tuple, Pictured, Notes, double> render(const Display& display, const std::optional<AnyPixels>& pixels,
                                                      const PreparedPanel* panel, const std::optional<Corners>& crop, int threads,
                                                      const std::string& device, const std::string& kernel,
@@ -180,7 +184,7 @@ nb::typed<nb::dict, std::string, double> compare(const AnyPixels& a, const AnyPi
     return all;
 }
 
-/// 8-bit codes with which a panel shows light.
+/// The 8-bit codes, by the panel's encoding, with which the panel shows light.
 nb::ndarray<nb::numpy, std::uint8_t> codes(const Display& display, const AnyPixels& light) {
     auto all = std::make_unique<std::vector<std::uint8_t>>();
     run(nb::none(), [&](Job&) { *all = encode8(image_of(light, display.panel.encoding, "panel"), display.panel.encoding); });

@@ -15,7 +15,7 @@ namespace nb = nanobind;
 
 constexpr std::chrono::milliseconds between_looks{50};
 
-/// What the working thread reports, for the waiting one to see.
+/// A job whose progress, which the working thread reports, the waiting thread reads.
 class Watched : public Job {
   public:
     struct ReportedProgress {
@@ -47,7 +47,8 @@ class Watched : public Job {
     std::atomic<bool> cancelled_{false};
 };
 
-/// With Python's lock held. Throws nb::python_error.
+/// Lets Python handle signals and, if the job has got further than `last`, calls progress(). Needs Python's lock. Throws
+/// nb::python_error if either raises.
 void look(const nb::object& progress, const Watched& job, Watched::ReportedProgress& last) {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
     if (progress.is_none()) return;
@@ -76,7 +77,7 @@ void run(const nb::object& progress, const std::function<void(Job&)>& work) {
     }
     try {
         finished.get();
-    } catch (...) {  // perhaps because a child process got the same signal
+    } catch (...) {  // the cause may be a signal that a child process got, too: then KeyboardInterrupt goes first
         const nb::gil_scoped_acquire locked;
         if (PyErr_CheckSignals() != 0) throw nb::python_error();
         throw;
