@@ -1,6 +1,5 @@
 // The glasses that ship. Coefficients of glasses and crystals, and of PMMA and PDMS, are those of the refractiveindex.info
-// database, which is in the public domain (CC0); where its fits to a plastic misstate the dispersion, makers' numbers stand
-// instead.
+// database, which is in the public domain (CC0); where its fits to a plastic misstate the dispersion, makers' numbers are used.
 #include "display/glass.h"
 
 #include <algorithm>

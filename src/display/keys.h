@@ -190,7 +190,7 @@ using ConstValueRef = ValuesOf<PointerToConst>;
 
 /// Calls visit for each value of a display, in the order of a description, with its path ("lens.surface.0.conic"), its key, and
 /// the value that a fresh struct has. Tables and fields that a display lacks are not visited. A kind is visited as the value of
-/// its word, then its own keys.
+/// its word, then its keys.
 void visit_all(const Display&,
                const std::function<void(const std::string& path, const KeyInfo&, ConstValueRef, ConstValueRef fresh)>& visit);
 /// Visits all values in the same order; `visit` may change them, except a kind, whose keys follow.

@@ -22,7 +22,7 @@ struct ViewGrid {
     double distance_mm = 0;                        // from the cameras' plane to the rectangle
     double width_mm = 0, height_mm = 0;            // of the rectangle
     double depth_mm = 0;                           // of the rectangle in front of the lenses' viewer-side vertex plane
-    double border_mm = 0;                          // by which a view's own border goes on beyond the rectangle
+    double border_mm = 0;                          // width by which the border of a view continues beyond the rectangle
 
     std::size_t views() const { return camera_mm.size(); }
     const std::array<double, 2>& camera(int column, int row) const {

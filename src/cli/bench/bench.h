@@ -69,7 +69,7 @@ class Bench {
     /// Timing for each case, in order; after a signal those that were run at least once.
     std::vector<Timing> measure(std::string_view stage, const std::vector<Case>&);
     bool cancelled() const { return progress_.cancelled(); }
-    /// The job for work that is not timed, with its own progress bar.
+    /// The job for work that is not timed; such work shows its progress.
     Job& job() { return progress_; }
 
     void heading(const std::string& text);

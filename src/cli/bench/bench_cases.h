@@ -8,8 +8,8 @@
 
 namespace lfdsim::cli {
 
-/// A 384 x 216 mm panel of 4K under 8.8 mm plano-convex lenses, seen from 2 m through a box diffuser at 4K with 100 samples a
-/// pixel: the size of the experiment in the 2019 paper (Guan, Sang et al., Opt. Express 27(20) 29309).
+/// Returns a 384 x 216 mm panel of 4K under 8.8 mm plano-convex lenses, whose camera at 2 m looks through a box diffuser, at 4K
+/// with 100 samples a pixel: the size of the experiment in the 2019 paper (Guan, Sang et al., Opt. Express 27(20) 29309).
 Display bench_display();
 
 /// A change of a display that gives the renderer one more duty, and its name in the tables.

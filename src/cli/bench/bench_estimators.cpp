@@ -145,6 +145,8 @@ std::vector<Spent> points_of(const BenchView& view, const Image& truth, Bench& b
     return points;
 }
 
+/// Adds a row with the errors and times of all ways and, for each way and clock, the shortest measured time to the error of
+/// papers_samples random points, divided by the time that those take.
 void report(const BenchView& view, const Reference& reference, const std::vector<Spent>& points, Bench& bench) {
     const auto wanted = std::find_if(points.begin(), points.end(),
                                      [](const Spent& p) { return p.estimator == &papers && p.samples == papers_samples; });
@@ -203,7 +205,7 @@ Rect crop_of(const Display& d, const BenchSettings& settings) {
     return {x, y, x + w, y + h};
 }
 
-/// Moves the camera about the vertical through its target, to the right as seen by a viewer for positive angles.
+/// Moves the camera about the vertical through its target, to the viewer's right for positive angles.
 void walk(Camera& camera, double angle_deg) {
     const double a = angle_deg * degree, x = camera.position_mm[0] - camera.target_mm[0],
                  z = camera.position_mm[2] - camera.target_mm[2];

@@ -94,6 +94,7 @@ class Child {
 void bench_paper(Bench& bench) {
     bench.heading(fmt::format("The 2019 paper's case, 3840 x 2160 x 100: {:g} s on a {}, {:g} frames/s interactively",
                               paper_seconds, paper_gpu, paper_frames_per_s));
+    // The files of the command, made before anything is timed.
     const TemporaryFolder folder;
     const std::string description = folder.path() / "display.toml", panel = folder.path() / "panel.png";
     const Display display = bench_display();
@@ -114,6 +115,7 @@ void bench_paper(Bench& bench) {
                                     "--kernel",
                                     bench.settings.kernel};
     if (bench.settings.quick) render.insert(render.end(), {"--samples", "10"});
+    // The start of the program alone, and the whole command.
     double samples = 0;
     std::vector<double> traced;  // seconds of tracing in each run, as the program reports them
     const auto timed = [](const std::vector<std::string>& arguments, Job& job) {
@@ -137,6 +139,7 @@ void bench_paper(Bench& bench) {
     if (all.size() < 2) return;
     std::sort(traced.begin(), traced.end());
     bench.seconds("paper", "samples", {{"of this, tracing", traced, {}, samples}});
+    // The paper's figures, for comparison; the factor only where the work is the same.
     Json paper{{"name", "the 2019 paper"},
                {"gpu", paper_gpu},
                {"seconds", paper_seconds},

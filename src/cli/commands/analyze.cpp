@@ -293,6 +293,7 @@ void side_by_side(const AnalyzeArguments& args, const AnalysisRequest& request) 
         if (std::filesystem::exists(place / (std::string(m.name) + ".json")))
             throw InputError("--output",
                              fmt::format("{} holds the results of one display; give another folder", args.output.text()));
+    // The displays, one after the other. A signal, or a measure that refuses its input, does not prevent the report.
     const std::vector<std::string> names = folder_names(request);
     std::vector<MeasuredDisplay> measured;
     std::vector<Problem> problems;
@@ -306,6 +307,7 @@ void side_by_side(const AnalyzeArguments& args, const AnalysisRequest& request) 
         found[names[n]] = std::move(outcome.found);
         measured.push_back({names[n], request.displays[n], std::move(outcome.folder)});
     }
+    // The report, with what is missing.
     Json all = differences(measured);
     std::string missing = interrupted ? "The run was interrupted; the same command with --resume continues it." : "";
     for (const Problem& p : problems) missing += fmt::format("{}{}: {}.", missing.empty() ? "" : " ", p.where, p.what);

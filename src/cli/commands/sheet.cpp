@@ -42,6 +42,7 @@ void run(const SheetArguments& args) {
         });
     faults.report();
 
+    // Each picture is reduced to its cell as soon as it is read.
     std::vector<Image> cells;
     for (const std::string& path : images)
         faults.of([&] {

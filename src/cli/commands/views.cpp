@@ -77,7 +77,7 @@ Target target_of(const ViewsArguments& args, const Display& display) {
     target.quilt = kind == ".png" || kind == ".exr" || kind == ".npy";
     Faults faults;
     faults.of([&] { args.kind.word(); });
-    if (target.quilt) {
+    if (target.quilt) {  // its name gives the number of views
         faults.of([&] {
             const std::optional<QuiltName> name = quilt_name(path);
             if (!name)

@@ -27,7 +27,7 @@ constexpr int values_per_node = 5;  // x, y, slope x, slope y, light
 /// The line along which most light of a panel point u travels, and the light relative to that of the point on the axis; NaN where
 /// there is none. A LensMapping has its difference to the nodal line, whose slope is -u/g.
 struct NodeLine {
-    double ux, uy, x, y, mx, my, light;  // mm, mm; mm at H', slopes; 1
+    double ux, uy, x, y, mx, my, light;  // u and the line's point in the plane of H', mm; its slopes; light, 1 on the axis
 };
 NodeLine node_line(const LensMapping& map, const Geometry& g, bool strips, int i, int j) {
     const auto place = [&](std::size_t k, int n) {

@@ -4,9 +4,8 @@
 
 namespace lfdsim::cli {
 
-/// Throws InputError for each option given that could change nothing, with the option that is the reason. Keys of the description
-/// and of
-/// --set are not checked: they are properties of the display, whatever is done with it.
+/// Throws InputError for each option given that could change nothing, with the option that is the reason. Keys that --set or the
+/// description gives are not checked: they are properties of the display, whatever is done with it.
 void check_effects(const Command&);
 
 }  // namespace lfdsim::cli

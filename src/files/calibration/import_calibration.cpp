@@ -99,11 +99,14 @@ class CalibrationImport {
             refuse("pitch",
                    fmt::format("is {} lenses per inch, with {:.3g} of the panel's pixels behind each; at least {}, so at most DPI",
                                c.pitch_per_inch, behind, fewest_pixels_behind));
+        // Without cells there are stripes, whose order each of the two flips reverses.
         if (c.cells.empty()) {
             d.panel.subpixels = c.flip_image_x != c.flip_subpixels ? SubpixelLayout::bgr_stripe : SubpixelLayout::rgb_stripe;
             return note("No subpixelCells: stripes of a third of a pixel, {} from left to right, without black between them.",
                         d.panel.subpixels == SubpixelLayout::rgb_stripe ? "red, green, blue" : "blue, green, red");
         }
+        // With cells each subpixel is a rectangle about its centre, all of the same size. y is upwards in a cell, and downwards in
+        // a description.
         const CellPattern& pattern = cell_patterns[c.cell_pattern];
         const auto [width, height] = largest_rect(c);
         if (!(width >= least_share && height >= least_share))

@@ -73,7 +73,7 @@ std::string hint_in(std::string_view text, std::size_t line, std::string_view sa
         text.remove_prefix(std::min(end + 1, text.size()));
         one.remove_prefix(std::min(one.find_first_not_of(" \t"), one.size()));
         const std::size_t brackets = one.find_first_not_of('[');
-        if (one.starts_with('[') && brackets <= 2)  // the first of a list stands for all
+        if (one.starts_with('[') && brackets <= 2)  // the keys of all elements of a list are those of the first
             table = std::string(one.substr(brackets, one.find(']') - brackets)) + (brackets == 2 ? ".0." : ".");
         const std::size_t equals = one.find('=');
         if (n < line || equals == one.npos) continue;

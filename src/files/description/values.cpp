@@ -38,7 +38,7 @@ constexpr GlassForm glass_forms[] = {
 }  // namespace
 
 std::string_view kind_of(const toml::node& node) {
-    // TOML's own words (floating_point, boolean) mean little to an optics designer
+    // TOML's words (floating_point, boolean) mean little to an optics designer.
     switch (node.type()) {
         case toml::node_type::table:
             return "a table";

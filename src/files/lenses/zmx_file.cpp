@@ -245,7 +245,7 @@ class ZmxReader {
             refuse(1, "is not a lens in Zemax's format: no line begins with SURF");
             return;
         }
-        // A file that Zemax wrote goes on behind its surfaces; one that ends within them, and within a line, is cut.
+        // A file that Zemax wrote continues after its surfaces; one that ends within them, and within a line, is cut.
         const bool cut_line = in_surface && !text.ends_with('\n') && !text.ends_with('\r');
         if (cut_line && text.starts_with("VERS")) refuse(line - 1, "ends in the middle of this line; the file is cut");
         for (ZmxSurface& s : surfaces) finish_surface(s, &s - surfaces.data());

@@ -9,7 +9,7 @@ namespace lfdsim {
 namespace {
 
 constexpr float rounding = 1e-3f;      // by which light may exceed 1 because of the arithmetic that made it
-constexpr float most_of_picture = 16;  // brighter light is doubted
+constexpr float most_of_picture = 16;  // white light of one of four stripes with an aperture ratio of 1/4
 
 }  // namespace
 

@@ -123,7 +123,7 @@ DeflatedStrip compress(const Bytes& filtered, int begin, bool last) {
 }  // namespace
 
 void write_png(Output& file, const Image& image, const WriteOptions& options, Job& job) {
-    constexpr int most = PNG_USER_WIDTH_MAX;  // libpng's own limit, which most readers share
+    constexpr int most = PNG_USER_WIDTH_MAX;  // libpng's limit, which most readers share
     if (image.width > most || image.height > most)
         throw InputError(file.name(), fmt::format("{} x {} pixels; a PNG has at most {} columns and rows, use .exr or .npy",
                                                   image.width, image.height, most));

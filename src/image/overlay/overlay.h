@@ -81,9 +81,8 @@ struct Overlay {
 /// Returns the bytes that lay_over() takes for a view of this size, in addition to the pictures.
 constexpr double overlay_bytes(double view_width, double view_height) { return 160 * view_width * view_height; }
 
-/// Aligns, fits and matches a photograph and a view. Both corners must pass check_corners(). Throws InputError as the steps do, and
-/// at
-/// `--fit-corners` for fitted corners that do not pass. If the job is cancelled it ends soon, with a meaningless result.
+/// Aligns, fits and matches a photograph and a view. Both corners must pass check_corners(). Throws InputError as the steps do,
+/// and at `--fit-corners` for fitted corners that do not pass. If the job is cancelled it ends soon, with a meaningless result.
 Overlay lay_over(const Image& view, const Corners& in_view, ScreenPhoto, const OverlayOptions&, const Job& = Job());
 
 }  // namespace lfdsim

@@ -180,6 +180,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
     };
     std::vector<double> views_elemental = along(&AxisTheory::elemental_pitch_mm);
     for (double& views : views_elemental) views /= d.panel.pixel_pitch_mm * (g.lattice.strips ? g.lattice.cos_turn : 1);
+    // Fields of view, lengths of a lens, and depth of field.
     std::vector<Figure> all = {
         {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, in which an eye may move", "2 atan(p / 2g)"},
         {"fov_exact_deg", along(&AxisTheory::fov_exact_deg),
@@ -218,6 +219,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
          "1/L - a / (g D)",
          pinhole}};
     for (Figure& f : sharpness(d, g, t)) all.push_back(std::move(f));
+    // Views, viewing zones, resolution, and gaps between lenses.
     const std::vector<Figure> rest{
         {"views", along(&AxisTheory::views), "N, views across", "p / a; for strips, along a row, p / (a cos(slant))"},
         {"views_elemental", views_elemental, "views of whole elemental images: panel pixels across each",

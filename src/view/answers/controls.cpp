@@ -245,7 +245,7 @@ class Lister {
         field.reset();
     }
 
-    // Each of the two numbers has a slider with its own ends, found with the other number fixed.
+    // Each of the two numbers has a separate slider, whose ends are found with the other number fixed.
     template <class Number>
     void add(Json& control, const std::string& path, const Range& range, std::array<Number, 2>& field,
              const std::array<Number, 2>* described) {

@@ -11,8 +11,8 @@ std::string make_token();
 /// Whether two tokens are equal. It takes the same time wherever they differ, so that the time does not betray how much is right.
 bool same_token(std::string_view given, std::string_view wanted);
 
-/// The check of a request's Host header. A page of another site may send requests here and, under its own name for this address
-/// (DNS rebinding), even read the answers: so the requested name must be one that nobody else can own.
+/// The check of a request's Host header. A page of another site may send requests here and, under that site's name for this address
+/// (DNS rebinding), even read the answers: so the requested name must be one that no other site can have.
 struct Gate {
     std::string host;      // that the server listens on: an address or a name
     int port = 0;          // that it listens on

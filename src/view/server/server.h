@@ -38,7 +38,7 @@ struct ServerCounts {
     long visitors = 0, refused = 0, malformed = 0, messages = 0, frames_sent = 0, frames_dropped = 0;
 };
 
-/// A server on a thread of its own, until it is destroyed, which ends all connections.
+/// A server that runs on a separate thread until it is destroyed, which ends all connections.
 class Server {
   public:
     /// Begins to listen. `page` is the only page, served at "/" with the token; `connect` is called for each WebSocket that is
