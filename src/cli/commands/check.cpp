@@ -93,7 +93,7 @@ void run(const CheckArguments& args) {
     const std::vector<ChannelTheory> colours = theory_by_colour(display);
     const std::vector<std::string> warnings = worth_knowing(display, geometry, paraxial);
 
-    // What is wrong comes first, then what follows from the description, and last what it says.
+    // Warnings come first, then what follows from the description, and last its keys.
     std::string text = printable(args.display.path()) + " is valid", table;
     text += warnings.empty() ? "; no advice on views, sharpness, colours, eye and scene.\n" : ", but worth knowing:\n";
     for (const std::string& warning : warnings) text += "  - " + warning + "\n";

@@ -118,7 +118,7 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
     } else {
         made.field = elemental_images(display, geometry, views->field, threads, progress);
     }
-    // What to say about it.
+    // The description of the views and their grid, in words and as JSON.
     const double rays = double(std::max<std::int64_t>(made.field.picture.rays, 1));
     made.json.update({{"form", std::string(name_of(source_.form))},
                       {"view_width", views->width},

@@ -31,7 +31,7 @@ const std::vector<Rule>& contradictions() {
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg"},
          "--views",
          "views are placed by --focus-depth-mm and --focus-width-mm, and cannot be rotated; give those"},
-        // Not for the viewer, which can photograph the model beside such a panel, or show it in place of the panel.
+        // The rule does not apply to the viewer, which can photograph the model beside such a panel, or show it in place of it.
         {{"--depth-mm", "--height-mm", "--tilt-deg", "--yaw-deg", "--pickup"},
          "--panel-image",
          "a panel image is shown unchanged; give the first to lfdsim eia, which makes panel images of a model",

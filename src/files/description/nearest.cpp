@@ -30,7 +30,7 @@ std::vector<std::string_view> nearest(std::string_view word, std::span<const std
     std::vector<std::pair<std::size_t, std::string_view>> near;
     if (word.size() > 64) return {};  // no key is half as long
     for (const std::string_view candidate : candidates) {
-        // a name without its unit is the usual slip: sphere_radius for sphere_radius_mm
+        // A missing unit is the usual slip, sphere_radius for sphere_radius_mm, and counts as one change.
         const std::size_t changes = candidate.starts_with(word) && word.size() > 2 ? 1 : edits(word, candidate);
         if (changes < word.size() / 2 + 2) near.emplace_back(changes, candidate);
     }

@@ -79,7 +79,7 @@ void draw_lens(SvgDrawing& drawing, const SideScale& scale, const Display& d, co
 void draw_between(SvgDrawing& drawing, const SideScale& scale, const Display& d, const Geometry& g, double y, bool upper,
                   bool lower) {
     const double half = 0.5 * d.array.pitch_mm[1];
-    // From the lowest rim to the highest.
+    // The surround reaches from the lowest rim of the lens's surfaces to the highest.
     double rim = g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
     if (d.array.aperture == Aperture::cell) rim = half;
     for (const PlacedSurface& f : g.surfaces) {

@@ -302,10 +302,10 @@ class Lister {
         for (const ShippedGlass& shipped : shipped_glasses()) control["words"].push_back(shipped.glass.name);
     }
 
-    // content.model, glass_catalogues, content.inverse.start, which are left out
+    // Names of files (content.model, glass_catalogues, content.inverse.start) have no control.
     void add(Json&, const std::string&, const Range&, std::string&, const std::string*) {}
     void add(Json&, const std::string&, const Range&, std::vector<std::string>&, const std::vector<std::string>*) {}
-    // content.inverse.eyes_mm, which is left out
+    // Lists of points (content.inverse.eyes_mm) have no control.
     void add(Json&, const std::string&, const Range&, std::vector<Vec3d>&, const std::vector<Vec3d>*) {}
 
     /// Radii that are limited to half the pitch. They shrink with the pitch, which could otherwise not be reduced.
