@@ -59,7 +59,8 @@ struct AnalyzeArguments {
     Option wavelength = command.option("--wavelength-nm", "W", "Wavelength for diffraction; default 550");
 };
 
-/// "-30,30,1": rising, both ends within low .. high, at most 10001 values.
+/// Returns the values of an option "FROM,TO,STEP": FROM + k STEP up to TO, which is included although FROM + k STEP is rounded;
+/// none if it is not given. Throws InputError unless they rise, lie within low .. high, and are at most 10001.
 std::vector<double> steps(const Option& option, double low, double high, const char* example) {
     if (option.empty()) return {};
     const std::vector<double> v = option.numbers(example);
