@@ -92,7 +92,7 @@ Done render_chosen(Kernel kernel, int threads, EstimatorChoice& choice, Job& job
             const RegionChoice& of = chosen[region_of(tile)];
             pixels[region_of(tile)] += std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0);
             float* const error = work.result.error.rgb.data();
-            if (of.strata == 0 && of.points == 0) return refine_tile(kernel, tile, *work.target_error, error, job);
+            if (of.filtered < 0 && of.points == 0) return refine_tile(kernel, tile, *work.target_error, error, job);
             if (work.target_error)
                 for (std::int32_t y = tile.y0; y < tile.y1; ++y)
                     std::fill_n(error + (std::int64_t(y - tile.crop_y) * tile.crop_width + tile.x0 - tile.crop_x) * 3,
@@ -103,7 +103,7 @@ Done render_chosen(Kernel kernel, int threads, EstimatorChoice& choice, Job& job
         double by_points = 0, squares = 0;
         for (std::size_t k = 0; k < chosen.size(); ++k) {
             done.samples += chosen[k].samples;
-            by_points += chosen[k].strata == 0 ? double(pixels[k]) : 0;
+            by_points += chosen[k].filtered < 0 ? double(pixels[k]) : 0;
             squares += double(pixels[k]) * chosen[k].error * chosen[k].error;
         }
         const double all = double(whole.x1 - whole.x0) * (whole.y1 - whole.y0);

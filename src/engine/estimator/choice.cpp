@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace lfdsim {
 
@@ -159,19 +160,27 @@ EstimatorChoice::EstimatorChoice(const Display& display, const Geometry& geometr
                                  const RenderOptions& options)
     : points_(by_points(display), geometry, panel, options) {
     points_.result.estimator = Estimator::filtered;
-    for (const EvenPart& part : even_parts(display)) filtered_.emplace_back(part, geometry, panel, options);
-    strata_ = {filtered_.front().work.tile.strata};
-    if (display.render.samples) given_ = std::uint32_t(*display.render.samples);
-    // The pictures that a gaussian diffuser consists of have fixed numbers of strata.
-    if (options.target_error && filtered_.size() == 1) strata_ = {2, 4, 8};
+    const auto try_with = [&](std::int64_t samples) {
+        Display tried = display;
+        tried.render.samples = samples;
+        filtered_.emplace_back();
+        for (const EvenPart& part : even_parts(tried)) filtered_.back().emplace_back(part, geometry, panel, options);
+    };
+    if (options.target_error) {
+        for (const int samples : {4, 16, 64}) try_with(samples);
+        return;
+    }
+    try_with(samples_of(display));
+    if (!display.render.samples) return;
+    given_ = std::uint32_t(*display.render.samples);
+    for (std::int64_t samples = *given_ / 4; samples >= 4; samples /= 4) try_with(samples);  // more are not always better
 }
 
-EstimatorChoice::PixelColours EstimatorChoice::filtered_at(Kernel kernel, const std::vector<Rect>& places, int strata) const {
+EstimatorChoice::PixelColours EstimatorChoice::filtered_at(Kernel kernel, const std::vector<Rect>& places,
+                                                           const Filtered& filtered) {
     PixelColours sum;
-    for (const GaussianBox& part : filtered_) {
-        Tile tile = part.work.tile;
-        tile.strata = filtered_.size() == 1 ? strata : tile.strata;
-        const PixelColours light = light_at(kernel, tile, places);
+    for (const Part& part : filtered) {
+        const PixelColours light = light_at(kernel, part.work.tile, places);
         sum.resize(light.size());
         for (std::size_t k = 0; k < light.size(); ++k) sum[k] += part.weight * light[k];
     }
@@ -216,12 +225,12 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
     const std::vector<Rect> places =
         places_in({x0, y0, std::min(x0 + region_side, points_.view.width), std::min(y0 + region_side, points_.view.height)},
                   Limits::places_an_axis);
-    // Filtered light at the region's places, with each number of strata
+    // Filtered light at the region's places, with each number of samples
     std::vector<PixelColours> filtered;
-    for (const int strata : strata_) filtered.push_back(filtered_at(kernel, places, strata));
+    for (const Filtered& one : filtered_) filtered.push_back(filtered_at(kernel, places, one));
 
-    // Candidates are compared with more and more points, until one is right or all are wrong. With a given number of samples,
-    // filtered light has to be better than that number of points.
+    // It is compared with more and more points, until it is right or wrong. With a target error the first number of samples that is
+    // right is used; with a given number of samples the best, which has to be better than that number of points.
     const double target = points_.target_error.value_or(0);
     RegionChoice choice;
     std::size_t candidate = 0;
@@ -235,14 +244,17 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
         spread = std::sqrt(spread2_of(a, b));
         if (given_ && target == 0) rms = mean = error_of(*given_);  // the better of two
         if (!given_ && target == 0 && points == Limits::first_points) rms = std::max(rms, Limits::of_36_points * spread);
-        for (; candidate < filtered.size(); ++candidate) {
-            const FilteredError of(filtered[candidate], a, b, places);
-            if (of.right(rms, mean)) {
-                choice.strata = strata_[candidate];
-                choice.error = of.rms();
+        std::vector<FilteredError> errors;
+        for (const PixelColours& light : filtered) errors.emplace_back(light, a, b, places);
+        while (candidate < errors.size()) {
+            if (target == 0) candidate = std::size_t(std::ranges::min_element(errors, {}, &FilteredError::rms) - errors.begin());
+            if (errors[candidate].right(rms, mean)) {
+                choice.filtered = int(candidate);
+                choice.error = errors[candidate].rms();
                 return choice;
             }
-            if (!of.wrong(rms, mean)) break;
+            if (!errors[candidate].wrong(rms, mean)) break;
+            candidate = target == 0 ? errors.size() : candidate + 1;
         }
         const bool enough = given_ || target > 0 || spread <= (points < 36 ? Limits::rms_allowed : Limits::points_rms) * light_;
         if (points == Limits::last_points || (candidate == filtered.size() && enough)) break;
@@ -261,22 +273,24 @@ std::int64_t EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, 
     const std::int64_t pixels = std::int64_t(of.x1 - of.x0) * (of.y1 - of.y0);
     std::int64_t samples = 0;
     // Renders the tile of a work, with its scene, to the place of the tile `of`.
-    const auto run = [&](const Work& work, int strata, std::uint32_t points) {
+    const auto run = [&](const Work& work, std::uint32_t points) {
         Tile tile = work.tile;
         tile.out = of.out;
         tile.x0 = of.x0;
         tile.y0 = of.y0;
         tile.x1 = of.x1;
         tile.y1 = of.y1;
-        tile.strata = strata;
         tile.samples = points;
         kernel(tile);
-        samples += pixels * (strata > 0 ? strata * strata : std::int64_t(points));
+        samples += pixels * (tile.strata > 0 ? tile.strata * tile.strata : std::int64_t(points));
     };
-    if (choice.strata == 0) {
-        run(points_, 0, choice.points);
-    } else if (filtered_.size() == 1) {
-        run(filtered_.front().work, choice.strata, 0);
+    if (choice.filtered < 0) {
+        run(points_, choice.points);
+        return samples;
+    }
+    const Filtered& filtered = *std::next(filtered_.begin(), choice.filtered);
+    if (filtered.size() == 1) {
+        run(filtered.front().work, 0);
     } else {
         // The weighted sum of the pictures that a gaussian diffuser consists of, each of which is rendered to the tile in turn
         const std::size_t width = std::size_t(of.x1 - of.x0) * 3;
@@ -284,8 +298,8 @@ std::int64_t EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, 
         const auto row = [&](std::int32_t y) {
             return of.out + (std::int64_t(y - of.crop_y) * of.crop_width + of.x0 - of.crop_x) * 3;
         };
-        for (const GaussianBox& part : filtered_) {
-            run(part.work, part.work.tile.strata, 0);
+        for (const Part& part : filtered) {
+            run(part.work, 0);
             for (std::int32_t y = of.y0; y < of.y1; ++y)
                 for (std::size_t k = 0; k < width; ++k) sum[std::size_t(y - of.y0) * width + k] += part.weight * row(y)[k];
         }

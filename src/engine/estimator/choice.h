@@ -16,7 +16,7 @@ namespace lfdsim {
 
 /// The choice of estimator for one region.
 struct RegionChoice {
-    int strata = 0;            // number along an axis, of filtered light; 0: by points
+    int filtered = -1;         // which of the numbers of samples of filtered light; -1: by points
     std::uint32_t points = 0;  // points a pixel, if by points; 0: as many as the target error takes
     double error = 0;          // root mean square over pixels and colours, linear light, as measured at the region's places
     std::int64_t samples = 0;  // taken to measure
@@ -45,25 +45,27 @@ class EstimatorChoice {
   private:
     using PixelColours = std::vector<float>;  // three numbers a pixel
 
+    /// Filtered light with one number of samples: pictures, with their weights, that add up to it. A box diffuser takes one, a
+    /// gaussian diffuser one for each box that it consists of.
+    struct Part {
+        Part(const EvenPart& of, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
+             const RenderOptions& options)
+            : work(of.display, geometry, panel, options), weight(of.weight) {}
+        Work work;
+        float weight;
+    };
+    using Filtered = std::list<Part>;
+
     /// Returns the filtered light of places, one after the other.
-    PixelColours filtered_at(Kernel, const std::vector<Rect>& places, int strata) const;
+    static PixelColours filtered_at(Kernel, const std::vector<Rect>& places, const Filtered&);
     /// Returns the light of places by points; that of the panel if it were white, with `of_white`. Different repetitions use
     /// independent numbers.
     PixelColours points_at(Kernel, const std::vector<Rect>& places, std::uint32_t points, int repetition,
                            bool of_white = false) const;
 
-    /// One of the pictures that add up to that by filtered light: of one of the box diffusers that a gaussian one consists of.
-    struct GaussianBox {
-        GaussianBox(const EvenPart& of, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
-                    const RenderOptions& options)
-            : work(of.display, geometry, panel, options), weight(of.weight) {}
-        Work work;
-        float weight;
-    };
     Work points_;
-    std::list<GaussianBox> filtered_;
-    std::vector<int> strata_;             // numbers along an axis that are tried, of filtered light, the least first
-    std::optional<std::uint32_t> given_;  // points a pixel, where the description has a number of samples
+    std::list<Filtered> filtered_;        // one for each number of samples that is tried
+    std::optional<std::uint32_t> given_;  // samples, where the description has a number of them
     double light_ = 0;                    // of the frame, by which errors are judged
 };
 
