@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""What content by inversion gains at eyes that the program neither fitted nor held out: inverse.py LFDSIM_PROGRAM [--only NAME] [--model FILE] [--json].
+"""What content by inversion gains at eyes that the program neither fitted nor held out: inverse.py LFDSIM_PROGRAM [--only NAME] [--beside] [--model FILE] [--json].
 
 For each display below the panel is made by the nodal, traced, integrated and inverse pick-up, and seen by eyes between the fitted ones: PSNR of sRGB
 codes and SSIM of luma against photographs of the scene, inside the border of the screen, as docs/inverse.md has them. The last column is the inverse
-pick-up over the best of the others. Needs numpy and Pillow.
+pick-up over the best of the others. --beside: at eyes two view steps beside the box instead, at its sides and corners. Needs numpy and Pillow.
 """
 import argparse
 import json
@@ -86,7 +86,15 @@ def ssim(a, b, mask):
     return values[whole].mean()
 
 
-def measure(program, name, case, model):
+def beside(case, description):
+    """Eyes two view steps, D a/g each, beside the box: at its sides, then at its corners."""
+    distance = case["box"][5] or description["camera"]["position_mm"][2]
+    step = distance * description["panel"]["pixel_pitch_mm"] / description["array"]["gap_mm"]
+    x, y = case["box"][3] + 2 * step, case["box"][4] + 2 * step
+    return [[a, b, distance] for a, b in ((x, 0), (-x, 0), (0, y), (0, -y), (x, y), (-x, y), (x, -y), (-x, -y))]
+
+
+def measure(program, name, case, model, outside=False):
     display = program.folder / f"{name}.toml"
     text = (ROOT / "displays" / f"{name}.toml").read_text()
     (z_wall, width), (z_model, height) = case["wall"], case["model"]
@@ -102,7 +110,7 @@ height_mm = {height}
 tilt_deg = -35
 """)
     default_z = tomllib.loads(text).get("camera", {}).get("position_mm", [0, 0, 2000])[2]
-    eyes = [[x, y, z or default_z] for x, y, z in case["eyes"]]
+    eyes = [[x, y, z or default_z] for x, y, z in (beside(case, tomllib.loads(text)) if outside else case["eyes"])]
     box = [default_z if n is None else n for n in case["box"]]
     frame, z, columns, rows = case["frame"]
     settings = [*case.get("set", []), "camera.pixel_filter=box", "camera.pupil_diameter_mm=4"]
@@ -140,6 +148,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     options.add_argument("program")
     options.add_argument("--only", default="", help="displays whose name holds this text")
+    options.add_argument("--beside", action="store_true", help="eyes two view steps beside the box")
     options.add_argument("--model", default=MODEL)
     options.add_argument("--json", action="store_true")
     options = options.parse_args()
@@ -148,7 +157,7 @@ def main():
         for name, case in DISPLAYS.items():
             if options.only not in name:
                 continue
-            found[name] = rows = measure(Program(str(pathlib.Path(options.program).resolve()), pathlib.Path(folder)), name, case, options.model)
+            found[name] = rows = measure(Program(str(pathlib.Path(options.program).resolve()), pathlib.Path(folder)), name, case, options.model, options.beside)
             if options.json:
                 continue
             print(name)

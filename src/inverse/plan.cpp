@@ -113,9 +113,12 @@ Plan plan(const Request& request) {
         p.in_boxes =
             std::min(std::int64_t(std::ceil(double(p.in_boxes) * std::max(1.05 * rows_wanted / ratio, 1.02))), most_places);
     }
-    // With as many around the boxes, of less weight
+    // As many around the boxes, of less weight; twice as many around boxes with width and height, whose rim has corners
     p.eyes = eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1);
-    const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, p.in_boxes);
+    const bool areas =
+        std::ranges::any_of(request.boxes, [](const EyeBox& box) { return box.high[0] > box.low[0] && box.high[1] > box.low[1]; });
+    const std::vector<Vec3d> around =
+        places_around(request.boxes, request.display, request.geometry, rim, (areas ? 2 : 1) * p.in_boxes);
     for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight))) p.eyes.push_back(eye);
     p.counts = count(request, p.eyes);
     p.rays = keys.rays.value_or(rays_for(p.counts));
