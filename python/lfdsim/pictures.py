@@ -84,8 +84,9 @@ def elemental_images(
     """The panel's picture of the display's model, or of `model`: linear light, not yet rounded to codes (see panel_codes).
 
     pickup: "nodal", "traced", "integrated" or "inverse"; default: the display's.
-    targets: with pickup="inverse", pictures that eyes should see in place of a scene: linear light, (rows, columns, 3), each as the
-        display's camera frames it from that eye. target_eyes_mm: (x, y, z) of these eyes.
+    targets: with pickup="inverse", pictures that eyes should see in place of a scene: arrays of (rows, columns, 3), linear light or
+        codes as in render(), each as the display's camera frames it from that eye, of any size with the camera's proportions.
+        target_eyes_mm: (x, y, z) of these eyes.
     """
     made_for = seen(display, model, pickup=pickup)
     if (targets is None) != (target_eyes_mm is None):
@@ -94,8 +95,10 @@ def elemental_images(
         raise InputError([("targets", 'are what pickup="inverse" shows in place of a model; give that pickup, and no model')])
     with shown(progress) as report:
         if targets is not None:
-            pictures = [np.ascontiguousarray(target, dtype=np.float32) for target in targets]
-            eyes = [tuple(float(x) for x in eye) for eye in target_eyes_mm or ()]
+            pictures = [pixels(target, f"targets[{k}]") for k, target in enumerate(targets)]
+            eyes = [tuple(float(x) for x in eye) for eye in ([] if target_eyes_mm is None else target_eyes_mm)]
+            if wrong := [eye for eye in eyes if len(eye) != 3]:
+                raise InputError([("target_eyes_mm", f"has the place {wrong[0]}; give (x, y, z) for each eye")])
             image, notes = _core.invert_pictures(made_for._handle, pictures, eyes, threads_of(threads), report)
         else:
             image, notes = _core.elemental_images(made_for._handle, threads_of(threads), report)

@@ -41,10 +41,14 @@ Vec3d place_in(const EyeBox& box, std::int64_t k) {
     return place;
 }
 
-bool is_inside(const EyeBox& box, const Vec3d& p) {
-    for (std::size_t c = 0; c < 3; ++c)
-        if (p[c] < box.low[c] || p[c] > box.high[c]) return false;
-    return true;
+/// Returns the distance along an axis, 0 or 1, at which eyes at the height z see the same panel pixels through the next lenses:
+/// p (D - H' + g)/g. It is infinite along strips; the least of both axes in a turned array.
+double view_period_mm(const Geometry& geometry, std::size_t axis, double z_mm) {
+    const Lattice<double>& lattice = geometry.lattice;
+    if (lattice.strips && axis == 1) return infinity;
+    const bool both = geometry.turn_deg != 0 && !lattice.strips;
+    const double pitch = both ? std::min(lattice.pitch[0], lattice.pitch[1]) : lattice.pitch[axis];
+    return pitch * (z_mm - geometry.rear_principal_mm + geometry.gap_mm) / geometry.gap_mm;
 }
 
 /// Returns half the width and half the height of the array as slopes from the eye's line of sight: the largest of its corners.
@@ -83,6 +87,12 @@ std::vector<EyeBox> eye_boxes(const Display& display) {
     return boxes;
 }
 
+bool is_inside(const EyeBox& box, const Vec3d& p) {
+    for (std::size_t c = 0; c < 3; ++c)
+        if (p[c] < box.low[c] || p[c] > box.high[c]) return false;
+    return true;
+}
+
 double view_step_mm(const Display& display, const Geometry& geometry, double z_mm) {
     const double step = (z_mm - geometry.rear_principal_mm) * display.panel.pixel_pitch_mm / geometry.gap_mm;
     return is_strips(display.array) && display.panel.subpixels != SubpixelLayout::none ? step / 3 : step;
@@ -110,8 +120,13 @@ std::vector<Vec3d> places_around(std::span<const EyeBox> boxes, const Display& d
     if (!(view_steps > 0)) return places;
     std::vector<EyeBox> wider(boxes.begin(), boxes.end());
     for (EyeBox& box : wider) {
-        const double reach = view_steps * view_step_mm(display, geometry, box.low[2]);
-        for (const std::size_t c : {0u, 1u}) box.low[c] -= reach, box.high[c] += reach;
+        const double steps = view_steps * view_step_mm(display, geometry, box.low[2]);
+        for (const std::size_t c : {0u, 1u}) {
+            const double reach =
+                std::clamp(0.5 * (view_period_mm(geometry, c, box.low[2]) - (box.high[c] - box.low[c])), 0., steps);
+            box.low[c] -= reach;
+            box.high[c] += reach;
+        }
     }
     for (std::int64_t k = 0; std::int64_t(places.size()) < count && k < 1000 * count; ++k) {
         const Vec3d place = places_within(wider, k, 1)[0];

@@ -19,6 +19,9 @@ struct EyeBox {
 /// if the key is absent.
 std::vector<EyeBox> eye_boxes(const Display&);
 
+/// Returns whether a position is in the box, or on its surface.
+bool is_inside(const EyeBox&, const Vec3d&);
+
 /// Returns the distance between the centres of neighbouring views for an eye at distance z from the panel: D a/g, D from the rear
 /// principal plane, a the panel's pixel pitch, g the gap. Of strips over subpixels it is a third of that.
 double view_step_mm(const Display&, const Geometry&, double z_mm);
@@ -30,8 +33,9 @@ double views_within(std::span<const EyeBox>, const Display&, const Geometry&);
 /// 2018), the boxes in turn. They are those from number `first` on, so that held-out places continue the fitted ones.
 std::vector<Vec3d> places_within(std::span<const EyeBox>, std::int64_t first, std::int64_t count);
 
-/// Returns eye positions around the boxes, up to `view_steps` view steps from them; fewer than `count` where that rim is very
-/// narrow.
+/// Returns eye positions around the boxes, up to `view_steps` view steps from them, and no farther than where the views begin to
+/// repeat: an eye beyond sees, through the next lenses, the pixels of eyes at the other end of the box. Fewer than `count` where
+/// that rim is very narrow.
 std::vector<Vec3d> places_around(std::span<const EyeBox>, const Display&, const Geometry&, double view_steps, std::int64_t count);
 
 /// Returns the width of an element of a view, mm in the plane of the content's middle: content.inverse.pixel_mm, or half of what

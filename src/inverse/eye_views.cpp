@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace lfdsim {
@@ -17,7 +18,8 @@ namespace {
 constexpr double least_light = 0.6;  // of the gain: where all elements nearby see less of a white panel none of them counts
 constexpr double least_share = 0.6;  // of the most light nearby: one with less lies mostly between lenses or beside the array
 constexpr double whole_share = 0.9;  // an element with more lies in front of lenses all over
-constexpr double dim_share = 0.3;    // of the brightest: an element that sees less does not count for the gain
+constexpr float unknown_light = std::numeric_limits<float>::quiet_NaN();  // of content: an element with it does not count
+constexpr double dim_share = 0.3;  // of the brightest: an element that sees less does not count for the gain
 
 float mean_of(const Image& image, std::size_t p) { return (image.rgb[3 * p] + image.rgb[3 * p + 1] + image.rgb[3 * p + 2]) / 3; }
 
@@ -58,27 +60,36 @@ ContentOf photographs_of(const ContentScene& scene, int threads) {
     };
 }
 
-ContentOf pictures_of(const LightField& field, double focus_z_mm, FieldRays& rays) {
-    return [&field, focus_z_mm, &rays](const Display& seen, const Geometry& geometry, std::int64_t, Job&) {
+ContentOf pictures_of(const LightField& field, double focus_z_mm, std::span<const EyeBox> boxes, FieldRays& rays) {
+    return [&field, focus_z_mm, boxes, &rays](const Display& seen, const Geometry& geometry, std::int64_t samples, Job&) {
         const Camera& camera = seen.camera;
         const CameraAxes axes = camera_axes(camera);
         const Vec3d& eye = camera.position_mm;
         Image image(int(camera.resolution[0]), int(camera.resolution[1]));
-        const double slope = geometry.frame_width_mm / axes.distance_mm / double(image.width);  // of a pixel
+        // The mean over a grid of lines in each pixel
+        const int each = int(std::lround(std::sqrt(double(samples))));
+        const double slope = geometry.frame_width_mm / axes.distance_mm / (double(image.width) * each);  // from line to line
         std::int64_t unseen = 0;
-        for (int row = 0; row < image.height; ++row)
-            for (int column = 0; column < image.width; ++column) {
-                const double right = (column + 0.5 - 0.5 * image.width) * slope, up = (0.5 * image.height - row - 0.5) * slope;
+        for (int row = 0; row < image.height * each; ++row)
+            for (int column = 0; column < image.width * each; ++column) {
+                const double right = (column + 0.5 - 0.5 * image.width * each) * slope,
+                             up = (0.5 * image.height * each - row - 0.5) * slope;
                 Vec3d to = axes.forward;
                 for (std::size_t c = 0; c < 3; ++c) to[c] += right * axes.right[c] + up * axes.up[c];
                 const double down = (eye[2] - focus_z_mm) / -to[2], back = field.grid().distance_mm / to[2];
                 const double x = eye[0] + to[0] * down, y = eye[1] + to[1] * down;
                 const LightField::FieldLine line{float(x), float(y), float(x + to[0] * back), float(y + to[1] * back)};
-                const auto answer = field.light(line, {float(slope), float(eye[2] - focus_z_mm)}, image.at(column, row));
+                float light[3];
+                const auto answer = field.light(line, {float(slope), float(eye[2] - focus_z_mm)}, light);
+                float* const pixel = image.at(column / each, row / each);
+                for (int c = 0; c < 3; ++c)
+                    pixel[c] += answer == LightField::Answer::seen ? light[c] / float(each * each) : unknown_light;
                 unseen += answer == LightField::Answer::beside_cameras;
             }
-        rays.all += std::int64_t(image.width) * image.height;
-        rays.unseen += unseen;
+        if (std::ranges::any_of(boxes, [&](const EyeBox& box) { return is_inside(box, eye); })) {
+            rays.all += std::int64_t(image.rgb.size() / 3) * each * each;
+            rays.unseen += unseen;
+        }
         return image;
     };
 }
@@ -136,6 +147,11 @@ void expect_light(std::vector<View>& views, double gain) {
         const WhiteLight white(view);
         view.expected.assign(white.here.size(), 0);
         for (std::size_t p = 0; p < white.here.size(); ++p) {
+            float* const content = &view.content.rgb[3 * p];
+            if (std::isnan(content[0])) {  // unknown_light
+                std::fill_n(content, 3, 0.f);
+                continue;
+            }
             if (!(white.nearby[p] > float(least_light * gain))) continue;
             const float share = white.here[p] / white.nearby[p];
             if (share > float(least_share)) view.expected[p] = share > float(whole_share) ? 1 : share;

@@ -16,13 +16,14 @@ namespace lfdsim {
 /// Returns a function that photographs a scene, which must outlive it.
 ContentOf photographs_of(const ContentScene&, int threads);
 
-/// Rays from eyes through a grid of views, and those that no view shows.
+/// Rays from eyes in the boxes through a grid of views, and those that pass beside its cameras.
 struct FieldRays {
     std::atomic<std::int64_t> all{0}, unseen{0};
 };
-/// Returns a function that computes what a camera sees of a grid of views, whose focus is in the plane z = focus_z_mm: along one
-/// line through the middle of each pixel, as wide as it. Field and rays, which are counted, must outlive it.
-ContentOf pictures_of(const LightField&, double focus_z_mm, FieldRays&);
+/// Returns a function that computes what a camera sees of a grid of views, whose focus is in the plane z = focus_z_mm: the mean of
+/// lines through each pixel. A pixel of which some lines are not shown by any view is NaN, and does not count. Field, boxes and
+/// rays, which are counted, must outlive it.
+ContentOf pictures_of(const LightField&, double focus_z_mm, std::span<const EyeBox>, FieldRays&);
 
 /// Returns the views of eyes as a display shows them, of which no element counts yet; nothing if the job is cancelled. `rays`: of
 /// an element's row; `white_points`: by which its light of a white panel, `white`, is computed; `samples`: of a pixel of the
@@ -37,7 +38,7 @@ double gain_of(std::span<const View>);
 
 /// Sets View::expected, q of docs/inverse.md: which elements count, and the share of the gain that each can show, what it sees of a
 /// white panel over the most that an element within a lens pitch of it does. Where this is much less than 1, or the most much less
-/// than the gain, the element does not count.
+/// than the gain, or the content is unknown (NaN, which becomes 0), the element does not count.
 void expect_light(std::vector<View>&, double gain);
 
 }  // namespace lfdsim

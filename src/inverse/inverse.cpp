@@ -228,13 +228,18 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
 /// Adds a warning if the views have too few elements, or too few rays with light, for each panel pixel that they meet.
 void warn_of_few_rays(InverseReport& report, const Inverse& keys, double rows, double rays) {
     if (rows >= fewest_rows && rays >= fewest_rays) return;
+    const std::string places =
+        rows >= fewest_rows && keys.rays
+            ? ""
+            : fmt::format(
+                  "give content.inverse.places = {:.0f} or more",
+                  std::ceil(double(report.places) * std::max({rows_wanted / rows, keys.rays ? 1. : fewest_rays / rays, 1.})));
     report.warnings.push_back(
         fmt::format("the eyes' views have {:.3g} elements and {:.3g} rays with light for each panel pixel that they meet; below {} "
-                    "and {} the fit follows noise{}. "
-                    "Give content.inverse.places = {:.0f} or more, and leave out content.inverse.rays",
+                    "and {} the fit follows noise{}; {}{}{}",
                     rows, rays, fewest_rows, fewest_rays,
-                    keys.prior ? "" : fmt::format(", and is pulled to traced content (prior {})", careful_prior),
-                    std::ceil(double(report.places) * std::max(rows_wanted / rows, 1.))));
+                    keys.prior ? "" : fmt::format(", and is pulled to traced content (prior {})", careful_prior), places,
+                    places.empty() || !keys.rays ? "" : ", and ", keys.rays ? "leave out content.inverse.rays" : ""));
 }
 
 /// The display that content is made for: without errors, unless content is made for the display as built.
@@ -270,7 +275,8 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
         report.rays_per_unknown = p.counts.lit * double(p.rays) / p.counts.pixels;
         const bool few = report.rows_per_unknown < fewest_rows || report.rays_per_unknown < fewest_rays;
         report.prior = keys.prior.value_or(few ? careful_prior : usual_prior);
-        if (const double views = views_within(request.boxes, request.display, request.geometry); views > 0 && views < 2)
+        if (const double views = views_within(request.boxes, request.display, request.geometry);
+            request.boxes.size() == 1 && views > 0 && views < 2)
             report.warnings.push_back(
                 fmt::format("the eyes' box is only {:.2g} views wide: all its eyes see nearly the same; give a wider one "
                             "(--eyes-mm)",
@@ -314,14 +320,19 @@ InvertedPanel invert(const Display& display, const Geometry& geometry, const Lig
     const Meant made(display, geometry);
     const double focus_z = made.geometry.vertex_plane_mm + field.grid().depth_mm;
     FieldRays rays;
-    const Request request{
-        made.display, made.geometry, display, focus_z, pictures_of(field, focus_z, rays), {boxes.begin(), boxes.end()}, threads,
-        job};
+    const Request request{made.display,
+                          made.geometry,
+                          display,
+                          focus_z,
+                          pictures_of(field, focus_z, boxes, rays),
+                          {boxes.begin(), boxes.end()},
+                          threads,
+                          job};
     InvertedPanel panel =
         fit_boxes(request, made.errors_unknown, elemental_images(made.by_traced(), made.geometry, field, threads, job).picture);
     if (const double share = double(rays.unseen) / double(std::max<std::int64_t>(rays.all, 1)); share > 0.01)
         panel.report.warnings.push_back(
-            fmt::format("{:.0f} % of the rays from these eyes pass beside the views' cameras, where they see black: give "
+            fmt::format("{:.0f} % of the rays from these eyes pass beside the views' cameras and do not count: give "
                         "eyes that the cameras surround (--eyes-mm), or more views",
                         100 * share));
     return panel;
@@ -331,6 +342,17 @@ InvertedPanel invert(const Display& display, const Geometry& as_shown, const Eye
     if (wanted.eyes_mm.empty() || wanted.eyes_mm.size() != wanted.pictures.size())
         throw InputError("targets", fmt::format("{} pictures for {} eyes; give one for each eye", wanted.pictures.size(),
                                                 wanted.eyes_mm.size()));
+    const auto [columns, rows] = display.camera.resolution;
+    for (std::size_t k = 0; k < wanted.pictures.size(); ++k) {
+        const Image& picture = wanted.pictures[k];
+        const double wider = double(picture.width) * double(rows) / (double(picture.height) * double(columns));
+        if (std::abs(wider - 1) > std::max(0.02, 1. / std::min(picture.width, picture.height)))
+            throw InputError(fmt::format("targets[{}]", k),
+                             fmt::format("has {} x {} pixels; give the proportions of the camera's picture, {} x {}", picture.width,
+                                         picture.height, columns, rows));
+        if (const auto least = std::ranges::min_element(picture.rgb); *least < 0)
+            throw InputError(fmt::format("targets[{}]", k), fmt::format("has the light {}; there is none below 0", *least));
+    }
     const Meant made(display, as_shown);
     const Request request{made.display, made.geometry, display, made.geometry.vertex_plane_mm + made.geometry.content_depth_mm, {},
                           {},           threads,       job};

@@ -17,7 +17,7 @@ class LightField;  // content/pictures/light_field.h
 /// Given pictures in place of a scene: what the display's camera, moved to each of these eyes, should see.
 struct EyePictures {
     std::vector<Vec3d> eyes_mm;   // in the display's frame
-    std::vector<Image> pictures;  // one for each eye, linear light, of the camera's size
+    std::vector<Image> pictures;  // one for each eye, linear light, of any size with the proportions of the camera's
 };
 
 /// What a fit was made of, and how good it is.

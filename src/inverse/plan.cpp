@@ -105,7 +105,7 @@ Plan plan(const Request& request) {
         if (request.job.cancelled()) return p;
         if (!(inside.pixels > 0))
             throw InputError("content.inverse.eyes_mm",
-                             "no ray from these eyes ends on the panel; give a box in front of it (--eyes-mm)");
+                             "no ray from these eyes ends on the panel; give a box from which the display is bright (--eyes-mm)");
         const double ratio = inside.rows / inside.pixels;
         const bool fixed = keys.places || views == 0;
         if (fixed || ratio >= rows_wanted || attempt == 4) break;

@@ -68,7 +68,7 @@ nb::typed<nb::tuple, Pictured, Notes> elemental_images(const Display& display, i
 }
 
 /// The panel's picture that best shows the wanted pictures, linear light, to the eyes (docs/inverse.md).
-nb::typed<nb::tuple, Pictured, Notes> invert_pictures(const Display& display, const std::vector<Pixels<float>>& targets,
+nb::typed<nb::tuple, Pictured, Notes> invert_pictures(const Display& display, const std::vector<AnyPixels>& targets,
                                                       const std::vector<Vec3d>& eyes_mm, int threads, const nb::object& progress) {
     PictureWithWarnings made;
     run(progress, [&](Job& job) {

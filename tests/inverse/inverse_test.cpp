@@ -12,6 +12,7 @@
 #include "files/description/display_file.h"
 #include "image/formats/image_file.h"
 #include "inverse/box_solver.h"
+#include "inverse/eye_views.h"
 #include "inverse/fitted_views.h"
 
 namespace lfdsim {
@@ -194,6 +195,61 @@ InvertedPanel inverted(const Display& d, int threads) {
     const ContentScene scene(built_in_model(), d, g);
     const std::vector<EyeBox> boxes{{{-60, 0, 600}, {60, 0, 600}}};
     return invert(d, g, scene, boxes, threads, job);
+}
+
+// Eyes beyond the middle between two periods of the views want of pixels what eyes at the box's other end do not.
+TEST(EyePlaces, AroundABoxEndWhereTheViewsRepeat) {
+    for (const auto& [name, d] : shipped_displays()) {
+        const Geometry g = resolve(d);
+        const double z = g.rear_principal_mm + 700, period = d.array.pitch_mm.least() * (700 + g.gap_mm) / g.gap_mm;
+        for (const double share : {0.1, 0.7, 0.97, 1.5}) {  // of the period, that the box is wide
+            const std::vector<EyeBox> box{{{-0.5 * share * period, -1, z}, {0.5 * share * period, 1, z}}};
+            double most = 0;
+            for (const Vec3d& eye : places_around(box, d, g, 3, 200)) most = std::max(most, std::abs(eye[0]));
+            const double reach = 3 * view_step_mm(d, g, z), width = share * period;
+            EXPECT_LE(most, 0.5 * std::max(period, width) * 1.2 + 1e-9) << name;  // hexagons' rows are closer than their columns
+            if (!is_strips(d.array) && share < 1)
+                EXPECT_GT(most, 0.5 * width + 0.8 * std::min(reach, 0.5 * (0.86 * period - width))) << name;
+        }
+    }
+}
+
+// A grid of views of a plane with stripes as wide as an element: each element is the mean of its lines, not a wider one, and
+// elements that no camera sees are unknown.
+TEST(EyeViews, OfAGridAreMeansOfLines) {
+    const Display d = parse_display(small_display, "small");
+    const Geometry g = resolve(d);
+    ViewGrid grid;
+    grid.columns = 3;
+    grid.camera_mm = camera_places({-30, 0, 30}, {0});
+    grid.distance_mm = 600 - g.vertex_plane_mm;
+    grid.width_mm = 120;
+    grid.height_mm = 80;
+    std::vector<Image> views(3, Image(480, 320));
+    Display seen = seen_by_camera_at(d, g, {10, 0, 600}, {60, 40});
+    const double element_mm = seen.camera.frame_width_mm.value() / 60;
+    for (Image& view : views)
+        for (std::size_t k = 0; k < view.rgb.size(); ++k) {
+            const double x = (double(k / 3 % 480) + 0.5) / 4 - 60;
+            view.rgb[k] = std::lround(std::floor((x - 0.5 * element_mm) / element_mm)) & 1 ? 1.f : 0.f;
+        }
+    const LightField field(grid, views);
+    FieldRays rays;
+    Job job;
+    const std::vector<EyeBox> box{{{-30, 0, 600}, {30, 0, 600}}};
+    const ContentOf content = pictures_of(field, g.vertex_plane_mm, box, rays);
+    const Image image = content(seen, resolve(seen), 16, job);
+    double least = 1, most = 0;
+    for (int column = 20; column < 40; ++column) {
+        least = std::min(least, double(image.at(column, 20)[0]));
+        most = std::max(most, double(image.at(column, 20)[0]));
+    }
+    EXPECT_LT(least, 0.3);
+    EXPECT_GT(most, 0.7);
+    EXPECT_EQ(rays.unseen, 0);
+    seen.camera.position_mm[0] = 80;  // beside the cameras
+    EXPECT_TRUE(std::isnan(content(seen, resolve(seen), 16, job).at(30, 20)[0]));
+    EXPECT_EQ(rays.unseen, 0);  // this eye is not in the box
 }
 
 TEST(Inverse, GainsAtEyesThatWereNotFittedWithTheSameBitsOnAnyNumberOfThreads) {

@@ -48,8 +48,16 @@ class SameBits(TinyTest):
         for named in ({"targets": targets}, {"targets": targets[:2], "target_eyes_mm": eyes}, {"target_eyes_mm": eyes}):
             with self.assertRaises(lfdsim.InputError):
                 lfdsim.elemental_images(d, pickup="inverse", **named)
+        codes = [np.full((54, 96, 3), code, np.uint8) for code in (124, 170, 203)]  # 0.2, 0.4, 0.6 of light
+        by_codes = lfdsim.elemental_images(d, pickup="inverse", targets=codes, target_eyes_mm=np.array(eyes))
+        self.assertLess(np.abs(by_codes - panel).mean(), 0.01)
         with self.assertRaisesRegex(lfdsim.InputError, "targets"):
             lfdsim.elemental_images(d, pickup="traced", targets=targets, target_eyes_mm=eyes)
+        for wrong in (targets[0][::2], targets[0] - 1, targets[0][..., 0]):  # another form, below 0, grey
+            with self.assertRaisesRegex(lfdsim.InputError, r"targets\[1\]"):
+                lfdsim.elemental_images(d, pickup="inverse", targets=[targets[0], wrong, targets[2]], target_eyes_mm=eyes)
+        with self.assertRaisesRegex(lfdsim.InputError, "target_eyes_mm"):
+            lfdsim.elemental_images(d, pickup="inverse", targets=targets, target_eyes_mm=[(0, 400)] * 3)
 
     def test_render(self) -> None:
         self.program("eia", "tiny.toml", "-o", "eia.npy")

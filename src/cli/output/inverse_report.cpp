@@ -16,13 +16,15 @@ void warn_of_inverse(const InverseReport& report) {
 }
 
 std::string inverse_text(const InverseReport& report) {
-    const std::string crosstalk =
-        report.crosstalk && *report.crosstalk > 5e-4
-            ? fmt::format("; crosstalk {:.1f} %, which --levels {:.2f},{:.2f} would allow to cancel", 100 * *report.crosstalk,
-                          *report.crosstalk / (1 + *report.crosstalk), 1 / (1 + *report.crosstalk))
-            : "";
+    std::string crosstalk;
+    if (report.crosstalk) {
+        const double c = *report.crosstalk, black = c / (1 + c);
+        crosstalk = fmt::format("; crosstalk {:.1f} %", 100 * c);
+        if (black >= 0.005) crosstalk += fmt::format(", which --levels {:.2f},{:.2f} would allow to cancel", black, 1 - black);
+    }
     const auto nearness = [](const Nearness& n) {
-        return std::isnan(n.ssim) ? fmt::format("{:.2f} dB", n.psnr_db) : fmt::format("{:.2f} dB, SSIM {:.3f}", n.psnr_db, n.ssim);
+        return std::isnan(n.ssim) ? fmt::format("{:.2f} dB, no SSIM because of dark gaps", n.psnr_db)
+                                  : fmt::format("{:.2f} dB, SSIM {:.3f}", n.psnr_db, n.ssim);
     };
     return fmt::format("at eyes that were not fitted: {} (traced content: {}); {} eyes{}, {} steps{}", nearness(report.held_out),
                        nearness(report.held_out_traced), report.places,
