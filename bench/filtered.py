@@ -3,6 +3,8 @@
 
 bench/filtered.py [--estimator filtered|lens_by_lens] [--cases NAME ...] [--samples N ...] [--panel checker|white ...] PROGRAM ...
 bench/filtered.py --default [--cases NAME ...] PROGRAM: default pictures and 36 points, with their time and samples; crops of 512 x 512 pixels.
+bench/filtered.py --cost [--cases NAME ...] PROGRAM: cost in point samples a pixel, by time, and RMSE in units of 0.0001, of pictures with a given number of
+samples, and of as many points in brackets; crops of 256 x 256 pixels.
 
 Several programs are compared. Crops of 96 x 54 pixels about the middle of the frame; linear light. A case takes a few seconds."""
 import argparse
@@ -84,18 +86,33 @@ def defaults(program, folder, case, shown):
     return " | ".join([case, *row])
 
 
+def costs(program, folder, case, shown, kind, numbers):
+    """A row of the table of costs."""
+    size = (256, 256)
+    truth = picture(program, folder, case, shown, "point", 8192, 77, size)[0]
+    a_point = picture(program, folder, case, shown, "point", 100, 5, size)[1]["seconds"] / 100
+    row = []
+    for samples in numbers:
+        light, made = picture(program, folder, case, shown, "filtered", samples, 1, size)
+        points = picture(program, folder, case, shown, "point", samples, 1, size)[0]
+        row.append(f"{made['seconds'] / a_point:.0f}, {1e4 * rmse(light, truth):.0f} ({1e4 * rmse(points, truth):.0f})")
+    return " | ".join([case, kind, *row])
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--estimator", choices=["filtered", "lens_by_lens"], default="filtered")
     options.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES), metavar="NAME")
-    options.add_argument("--samples", nargs="+", type=int, default=[1, 4, 16])
+    options.add_argument("--samples", nargs="+", type=int, help="default: 1 4 16; with --cost 1 4 9 16 36 100 1024")
     options.add_argument("--panel", nargs="+", choices=["checker", "white"], default=["checker"])
     options.add_argument("--default", action="store_true")
+    options.add_argument("--cost", action="store_true")
     options.add_argument("program", nargs="+", metavar="PROGRAM")
     given = options.parse_args()
+    given.samples = given.samples or ([1, 4, 9, 16, 36, 100, 1024] if given.cost else [1, 4, 16])
     if given.default:
         print("| display | RMSE | ns a pixel | samples a pixel | by points | measured error | RMSE of 36 points | ns a pixel |\n|---|---|---|---|---|---|---|---|")
-    else:
+    else:  # with --cost one program is measured
         print("| display | panel | " + " | ".join(f"{p}, {n}" for p in given.program for n in given.samples) + " |")
         print("|---" * (2 + len(given.program) * len(given.samples)) + "|")
     with tempfile.TemporaryDirectory() as name:
@@ -105,6 +122,9 @@ def main():
                 columns, rows = tomllib.loads((DISPLAYS / f"{CASES[case][0]}.toml").read_text())["panel"]["pixels"]
                 shown = folder / "panel.npy"
                 np.save(shown, panel(kind, columns, rows))
+                if given.cost:
+                    print(f"| {costs(given.program[0], folder, case, shown, kind, given.samples)} |", flush=True)
+                    continue
                 if given.default:
                     print(f"| {defaults(given.program[0], folder, case, shown)} |", flush=True)
                     continue

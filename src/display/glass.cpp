@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace lfdsim {
 namespace {
@@ -38,31 +39,10 @@ char small(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 }  // namespace
 
 std::string_view key_of(Formula formula) {
-    switch (formula) {
-        case Formula::unknown:
-            return "";
-        case Formula::nd_vd:
-            return "nd";
-        case Formula::cauchy:
-            return "cauchy";
-        case Formula::conrady:
-            return "conrady";
-        case Formula::herzberger:
-            return "herzberger";
-        case Formula::sellmeier:
-            return "sellmeier";
-        case Formula::resonances:
-            return "resonances";
-        case Formula::sellmeier_2:
-            return "sellmeier_2";
-        case Formula::handbook_1:
-            return "handbook_1";
-        case Formula::handbook_2:
-            return "handbook_2";
-        case Formula::power_series:
-            return "power_series";
-    }
-    return "";
+    static constexpr std::string_view keys[] = {"",           "nd",          "cauchy",     "conrady",    "herzberger",  "sellmeier",
+                                                "resonances", "sellmeier_2", "handbook_1", "handbook_2", "power_series"};
+    static_assert(std::size(keys) == std::size_t(Formula::power_series) + 1);  // in the order of Formula
+    return keys[std::size_t(formula)];
 }
 
 bool takes(Formula formula, std::size_t count) {

@@ -136,7 +136,7 @@ struct TracedDisplay {
     bool has_diffuser;
     Profile diffuser_profile;
     S angle_scale[2];     // about y and about x, radians: see diffuser.h
-    S within_horizon[2];  // the share of a normal distribution that is turned by less than 89 degrees
+    S within_horizon[2];  // the share of the light that is turned by less than 89 degrees
     bool small_angles;    // box: both half angles below 0.05 rad
 
     // camera

@@ -1,6 +1,7 @@
 #include "analysis/pictures/directions.h"
 
 #include "analysis/pictures/views.h"
+#include "base/constants.h"
 #include "engine/render.h"
 #include "image/sheet.h"
 
@@ -75,7 +76,7 @@ Result measure_directions(Subject& s, Job& job) {
         0.1};
     const Display tiny = sized(s.display(), strip_width);
     for (int k = 0; k < frames; ++k) {
-        const double angle = most * std::sin(2 * 3.14159265358979323846 * k / frames);
+        const double angle = most * std::sin(2 * pi * k / frames);
         const Pair pair = look(s, tiny, angle, 0, job);
         strip.frames.push_back(contact_sheet(std::array{pair.simulated, pair.photograph},
                                              std::array{fmt::format("display, {:+.0f}\xc2\xb0", angle), std::string("scene")}, 2));

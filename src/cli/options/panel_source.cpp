@@ -19,7 +19,9 @@ void PanelImageOption::check() const {
 bool PanelImageOption::warn(const Display& display) const {
     const Metadata about = read_metadata(path());
     const bool incomplete = about.count(incomplete_mark) > 0;
-    if (incomplete) spdlog::warn("{}: is marked incomplete: the run that made it was interrupted; its last words said what it contains", path());
+    if (incomplete)
+        spdlog::warn("{}: is marked incomplete: the run that made it was interrupted; its last words said what it contains",
+                     path());
     warn_if_for_another(path(), about, display);
     return incomplete;
 }

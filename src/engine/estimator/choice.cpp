@@ -142,6 +142,8 @@ struct FilteredError {
 
     /// Returns an upper estimate of a pixel's error, its square being larger by one standard deviation.
     double rms() const { return std::sqrt(std::max(square, 0.0) + square_noise); }
+    /// Returns a lower estimate of it.
+    double least_rms() const { return std::sqrt(std::max(square - square_noise, 0.0)); }
     /// Returns whether a pixel's error is at most `allowed`, and that of the mean at most `mean` in neighbourhoods, `mean`/sqrt(2)
     /// in the region. Where neither right() nor wrong() holds, more points decide.
     bool right(double allowed, double mean) const {
@@ -153,6 +155,14 @@ struct FilteredError {
                region2 > 0.5 * mean * mean + 3 * region_noise;
     }
 };
+
+/// Returns the first of the errors, unless a later one is smaller for certain.
+std::size_t best_of(const std::vector<FilteredError>& errors) {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < errors.size(); ++k)
+        if (errors[k].rms() < errors[best].least_rms()) best = k;
+    return best;
+}
 
 }  // namespace
 
@@ -230,7 +240,8 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
     for (const Filtered& one : filtered_) filtered.push_back(filtered_at(kernel, places, one));
 
     // It is compared with more and more points, until it is right or wrong. With a target error the first number of samples that is
-    // right is used; with a given number of samples the best, which has to be better than that number of points.
+    // right is used; with a given number of samples that number, or a smaller one if it is better, which has to be better than that
+    // number of points.
     const double target = points_.target_error.value_or(0);
     RegionChoice choice;
     std::size_t candidate = 0;
@@ -247,7 +258,7 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
         std::vector<FilteredError> errors;
         for (const PixelColours& light : filtered) errors.emplace_back(light, a, b, places);
         while (candidate < errors.size()) {
-            if (target == 0) candidate = std::size_t(std::ranges::min_element(errors, {}, &FilteredError::rms) - errors.begin());
+            if (target == 0) candidate = best_of(errors);
             if (errors[candidate].right(rms, mean)) {
                 choice.filtered = int(candidate);
                 choice.error = errors[candidate].rms();

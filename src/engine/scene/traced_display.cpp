@@ -208,9 +208,10 @@ StoredDisplay<S> make_traced_display(const Display& display, const Geometry& geo
         scene.start_above = S(*geometry.diffuser_z_mm - first);
         scene.small_angles = scene.diffuser_profile == Profile::box;
         for (int axis = 0; axis < 2; ++axis) {
-            const double scale = figures_of(scene.diffuser_profile).scale * display.diffuser->angle_deg[axis] * degree;
+            const ProfileFigures& figures = figures_of(scene.diffuser_profile);
+            const double angle_deg = display.diffuser->angle_deg[axis], scale = figures.scale * angle_deg * degree;
             scene.angle_scale[axis] = S(scale);
-            scene.within_horizon[axis] = S(scale > 0 ? std::erf(89 * degree / scale) : 1);
+            scene.within_horizon[axis] = S(angle_deg > 0 ? 2 * figures.below(89 / angle_deg) - 1 : 1);
             scene.small_angles = scene.small_angles && scale <= 0.05;
         }
     }
