@@ -10,10 +10,10 @@ namespace lfdsim {
 /// distribution's full width at half maximum. Theory of small angles takes slopes and lengths for angles.
 struct ProfileFigures {
     double (*below)(double angle);     // the share of the light at smaller angles
-    double (*transfer)(double waves);  // the contrast that is left of a wave of that many periods per unit
+    double (*transfer)(double waves);  // the contrast of a wave after the diffuser, periods per unit
     double scale;                      // the angle of scattering is this times u, or erfinv(u), u uniform in [-1, 1]
-    double reach;                      // the largest angle that is worth an integral
-    double width;                      // of the middle that holds 98 % of the light
+    double reach;                      // angle beyond which there is less than 1e-5 of the light
+    double width;                      // full width that holds at least 98 % of the light
     bool rectangular;                  // along an oblique direction the axes' widths add up; otherwise their squares do
 };
 

@@ -26,7 +26,7 @@ struct ColourSpread {
     std::vector<double> distance;     // of each part, from all sets together, so that noise raises it; NaN: dark
     int dark = 0;                     // number of parts that are left out: their luminance is less than a tenth of the mean
 };
-/// Returns the distances of parts with these weights. Noise alone makes distances: so seven sets determine which part has the
+/// Returns the distances of parts with these weights. Noise makes distances, too: so seven sets determine which part has the
 /// largest one and in which direction from the mean each part lies, and the eighth determines how far along that direction it
 /// lies; each set is the eighth in turn. Errors include the excess of all sets together, and the change that parts make of which
 /// noise leaves open whether they are dark.

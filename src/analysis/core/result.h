@@ -148,7 +148,7 @@ struct Result {
     void add(const std::string& path, const FigureValue&);
     /// Adds a figure for scripts together with its line of the table.
     void add(const std::string& path, const FigureValue&, const FigureLine&);
-    /// Adds a line of the table alone, for a figure that scripts find in other units or in another place.
+    /// Adds a line to the table only, for a figure that scripts find in other units or in another place.
     void add_line(const FigureValue&, const FigureLine&);
     /// Adds the plot and the table of curves.
     void add(Curves);

@@ -56,7 +56,7 @@ class Subject {
     const SummedPanel& panel(const Job&);
 
     /// Returns the mean light of the screen, over its pixels and all three channels, that the camera on axis sees of a white
-    /// panel; more than 0. It is over all channels since lenses in focus on subpixels show some of them alone. Simulated pictures
+    /// panel; more than 0. It is over all channels since lenses in focus on subpixels show only some of them. Simulated pictures
     /// are divided by it, so that light lost in lenses and gaps does not count as unlikeness. Throws Stopped; InputError if no
     /// light is seen.
     double white_field(const Job&);

@@ -16,7 +16,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double most_seen_share = 0.5;    // of an elemental image at once: if an eye sees more, no position shows one view alone
+constexpr double most_seen_share = 0.5;    // of an elemental image at once: if an eye sees more, no position shows only one view
 constexpr double most_mixed_percent = 50;  // between the eyes: a third of the light is wrong
 // Between the eyes, and how much of it at least is due to aberration
 constexpr double most_aberrated_percent = 15, most_more_percent = 10;

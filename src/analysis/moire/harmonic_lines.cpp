@@ -18,7 +18,7 @@ constexpr double all_lines = double(independent_sets) * lines_a_set;
 constexpr int finest_order = 800;       // of harmonics; finer ones, of pixels with a tiny aperture ratio, are left out
 constexpr int most_squares = 2048;      // along a cell
 constexpr double least_share = 1e-3;    // |c_K|: weaker harmonics are left out
-constexpr double least_part = 0.01;     // of the strongest harmonic's amplitude: from here on a harmonic is measured by itself
+constexpr double least_part = 0.01;     // of the strongest harmonic's amplitude: a harmonic above it is measured separately
 constexpr double least_counted = 1e-3;  // of a wave's contrast: harmonics from here to least_part add to the error only
 constexpr double surely = 4;            // standard deviations of noise from which a contribution is significant
 

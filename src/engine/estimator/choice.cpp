@@ -156,7 +156,7 @@ struct FilteredError {
     }
 };
 
-/// Returns the first of the errors, unless a later one is smaller for certain.
+/// Returns the index of the first error, or of a later one that is smaller by the standard deviations of both.
 std::size_t best_of(const std::vector<FilteredError>& errors) {
     std::size_t best = 0;
     for (std::size_t k = 1; k < errors.size(); ++k)
