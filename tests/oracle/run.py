@@ -286,7 +286,7 @@ def main():
         todo.append((f"{name}, checker", lambda d=description: single_rays(harness, d, "checker", None)))
     for name, description in {**errors_cases.COLOURED_SHORT, **({} if options.quick else errors_cases.COLOURED_MORE)}.items():
         todo.append((f"{name}, noise", lambda d=description: single_rays(harness, d, "noise", 0.997, COMPARED)))
-    count, strata, samplings = (2048, 576, ["sobol"]) if options.quick else (16384, 3844, ["random", "sobol"])
+    count, strata, samplings = (2048, 144, ["sobol"]) if options.quick else (16384, 3844, ["random", "sobol"])
     more = {} if options.quick else colour_cases.BLURRED_MORE
     fine = {**colour_cases.FINE_SHORT, **({} if options.quick else colour_cases.FINE_MORE)}
     wrong = {**errors_cases.BLURRED_SHORT, **({} if options.quick else errors_cases.BLURRED_MORE)}

@@ -22,7 +22,7 @@ import oracle
 import table
 from forms import Forms
 
-# --quick: one display of as many has the measure. "likeness" is `analyze fov` with all its views.
+# --quick: one display of as many has the measure, and pictures are small. "likeness" is `analyze fov` with all its views.
 EVERY = {"fov": 2, "likeness": 15, "dof": 5, "zone": 10, "crosstalk": 9, "uniformity": 9, "spot": 5, "mtf": 20, "moire": 9}
 NO_FIGURE = re.compile(r"[ (-]nan\b|(?<!=)[ (-]inf\b|\de[+-]?\d")  # in what check tells in words; "= inf" is the value of a key
 TRIES = 20  # drawings for one display, where `check` refuses some
@@ -40,6 +40,8 @@ class Harness:
         """The first drawing of this number, changed by change(number, description), that check accepts: (description, its file, check's result, drawings refused)."""
         for refused in range(TRIES):
             description = displays.draw(number + 1000 * refused, self.most_pixels)
+            if self.quick:
+                description["camera"]["resolution"] = [160, 90]
             if change:
                 change(number + 1000 * refused, description)
             path = self.folder / f"{number}.toml"
@@ -167,7 +169,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("--displays", type=int, default=200)
     parser.add_argument("--first", type=int, default=0, help="number of the first display")
-    parser.add_argument("--quick", action="store_true", help="the measures by turns: each display has a few of them")
+    parser.add_argument("--quick", action="store_true", help="small pictures, and the measures by turns: each display has a few of them")
     parser.add_argument("--panel-pixels", type=float, default=4e5, help="most pixels of a panel")
     parser.add_argument("--only", default="", help="measures whose names contain this")
     parser.add_argument("--wrong", action="store_true", help="print every figure that does not agree")
