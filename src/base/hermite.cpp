@@ -1,7 +1,5 @@
 #include "base/hermite.h"
 
-#include "display/enums.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +19,7 @@ double zero_between(std::size_t K, double low, double high) {
     }
 }
 
-using Zeros = std::array<std::vector<double>, max_wavelength_samples + 1>;
+using Zeros = std::array<std::vector<double>, max_hermite_degree + 1>;
 
 /// Returns the zeros of the Hermite polynomials by degree. The zeros of degree K - 1 separate those of degree K, and none of
 /// these is beyond sqrt(2 K + 1): so each zero is bracketed by the ones of the degree before. Negative zeros mirror the positive

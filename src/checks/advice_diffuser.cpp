@@ -47,7 +47,7 @@ void advise_on_diffuser(Advised& a) {
     // Each axis has its angle 2 atan(S/2d) that closes the gaps, S the spread that joins neighbouring lenses' light there and d
     // the diffuser's height above the plane that limits the light: at the best distance (best_deg) and at the actual one (angle).
     const Pitch& p = d.array.pitch_mm;
-    const double eye = eye_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(g, a.theory, p, eye);
+    const double eye = camera_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(g, a.theory, p, eye);
     const std::array<double, 2> joining = joining_spread_mm(g);
     const std::size_t main = joining[0] > 0 ? 0 : 1;  // strips need one angle alone
     std::array<double, 2> best_deg, height, angle;

@@ -11,7 +11,7 @@ namespace lfdsim {
 void advise_on_eye(Advised& a) {
     const Display& d = a.display;
     const Geometry& g = a.geometry;
-    const double eye = eye_distance_mm(d), made_for = d.content.viewing_distance_mm, nearest = nearest_eye_mm(g);
+    const double eye = camera_distance_mm(d), made_for = d.content.viewing_distance_mm, nearest = nearest_eye_mm(g);
     if (!(eye > nearest))
         a.say(
             "the camera, {:.5g} mm from the panel, is inside the display, which ends {:.5g} mm from the panel: move it farther "

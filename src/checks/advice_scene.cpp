@@ -77,7 +77,7 @@ void advise_on_size(Advised& a, double eye) {
 
 void advise_on_scene(Advised& a) {
     const Geometry& g = a.geometry;
-    const double eye = eye_distance_mm(a.display) - g.vertex_plane_mm;
+    const double eye = camera_distance_mm(a.display) - g.vertex_plane_mm;
     if (!(eye > 0) || advise_behind_eye(a, eye) || advise_near_eye(a, eye)) return;
     advise_on_size(a, eye);
 
@@ -85,7 +85,7 @@ void advise_on_scene(Advised& a) {
     const double from_lens = g.content_depth_mm + g.vertex_plane_mm - g.rear_principal_mm;
     const bool at_lenses = std::abs(from_lens) <= widest_aperture_mm(g);  // where all views agree
     if (a.display.lens.type() == LensType::pinhole || at_lenses || is_sharp(a.theory, from_lens)) return;
-    const double from_panel = eye_distance_mm(a.display);
+    const double from_panel = camera_distance_mm(a.display);
     const SharpRange by_pixel = sharp_by_pixel(g, a.theory, from_panel),
                      by_lens = sharp_by_lens(a.display, g, a.theory, from_panel);
     const bool within = by_lens.holds(g.content_depth_mm);

@@ -67,7 +67,7 @@ std::pair<int, PitchRule> views(const DesignRequest& r, double a, double L) {
     if (r.pitch_mm) return {int(std::lround(*r.pitch_mm / a)), PitchRule::asked};
     const double E = r.distance_mm, slope = std::tan(r.fov_deg * degree / 2), far = E / (E - L);
     const bool near_eye = E < nearest_sight_mm;
-    const double pitch = near_eye ? pupil_mm / 2 : std::sqrt(2 * slope * a * std::abs(L) * far);
+    const double pitch = near_eye ? usual_pupil_mm / 2 : std::sqrt(2 * slope * a * std::abs(L) * far);
     const double most = std::floor(double(std::min(r.pixels[0], r.pixels[1])) / fewest_lenses), N = std::round(pitch / a);
     if (N > most) return {int(most), PitchRule::lenses};
     if (N < fewest_views) return {fewest_views, PitchRule::views};
@@ -183,7 +183,7 @@ std::optional<Problem> design(FirstOrder& o) {
     d.camera.resolution = {1280, 720};
     if (o.near_eye) {
         d.camera.resolution = {640, 360};
-        d.camera.pupil_diameter_mm = pupil_mm;
+        d.camera.pupil_diameter_mm = usual_pupil_mm;
         d.camera.focus_distance_mm = rounded(D - z_r - L);
     } else {
         Diffuser& diffuser = d.diffuser.emplace();

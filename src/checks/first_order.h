@@ -49,10 +49,8 @@ struct FirstOrder {
     ApertureRule aperture_rule;
 };
 
-/// The index of PMMA at 589 nm, and the least distance at which an eye sees sharply, mm.
-inline constexpr double pmma_index = 1.4918, nearest_sight_mm = 250;
-/// The diameter of an eye's pupil in a dim room, mm.
-inline constexpr double pupil_mm = 4;
+/// The index of PMMA at 589 nm.
+inline constexpr double pmma_index = 1.4918;
 /// K of docs/model.md, "First designs": the blur, radians, of a plano-convex lens whose flat face is towards its focus is K
 /// (aperture/focal length)^3. Spherical aberration of third order, whole width, at the paraxial focus (a quarter of it at the
 /// best one).

@@ -110,7 +110,8 @@ class Design {
         made_.views_rule = ViewsRule::asked;
         if (r_.views || r_.pitch_mm) return;
         const double D = r_.distance_mm, zone = 2 * D * (r_.sheet_mm ? 0.25 : slope());
-        const double wanted = std::ceil(2 * zone / usual_eyes_mm), most = std::floor(D * lens_arc_minutes * degree / 60 / a_);
+        const double wanted = std::ceil(2 * zone / usual_eye_separation_mm),
+                     most = std::floor(D * lens_arc_minutes * degree / 60 / a_);
         made_.views_rule = wanted <= most ? ViewsRule::eyes : ViewsRule::lenses;
         r_.views = std::clamp(std::min(wanted, most), 3., lenticular_views_range.high);
     }
@@ -124,7 +125,7 @@ class Design {
             gap_ = *r_.sheet_mm / n_;
         } else if (made_.two_view) {
             // Neighbouring pixels are seen an eye's distance b apart, a E/g = b, so g = a D'/(b + n a).
-            const double b = r_.eyes_mm.value_or(usual_eyes_mm);
+            const double b = r_.eyes_mm.value_or(usual_eye_separation_mm);
             gap_ = a_ * D / (b + n_ * a_);
         } else {
             // tan(FOV/2) = p'/(2 g) along the rows, with p' = N a, or p (1 + g/E)/cos(slant) of a given pitch, by iteration.
@@ -230,7 +231,7 @@ class Design {
         d_.camera.frame_width_mm = rounded(1.05 * std::max(width, height * 16 / 9));
         d_.camera.resolution = {1280, 720};
         d_.camera.pixel_filter = PixelFilter::box;
-        d_.camera.pupil_diameter_mm = pupil_mm;
+        d_.camera.pupil_diameter_mm = usual_pupil_mm;
         d_.content.depth_mm = 0;
         d_.content.height_mm = rounded(height / 2);
         d_.content.viewing_distance_mm = r_.distance_mm;

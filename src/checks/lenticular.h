@@ -27,7 +27,7 @@ struct LenticularRequest {
     std::optional<double> slant_deg = {};  // absent: atan(1/3), or 0 of two views
     std::optional<double> fov_deg = {};    // of whole elemental images along the rows; absent: 30, or by the eyes of two views
     std::optional<double> sheet_mm = {};   // T, from the panel to the lenses' vertices, all in the lenses' glass
-    std::optional<double> eyes_mm = {};    // b, between a viewer's eyes, for two views; absent: usual_eyes_mm
+    std::optional<double> eyes_mm = {};    // b, between a viewer's eyes, for two views; absent: usual_eye_separation_mm
     LensType lens = LensType::plano_convex;
 };
 
@@ -51,8 +51,8 @@ struct Lenticular {
     bool two_view;  // two views, whose gap follows from the distance between the eyes
 };
 
-/// The usual distance between a viewer's eyes, mm, and the largest angle of a lens that the eye hardly resolves, arc minutes.
-inline constexpr double usual_eyes_mm = 65, lens_arc_minutes = 5;
+/// The largest angle of a lens that the eye hardly resolves, arc minutes.
+inline constexpr double lens_arc_minutes = 5;
 
 /// Returns a valid display that meets the request. Throws InputError with the option of `lfdsim new` as `where`, and what is
 /// possible.

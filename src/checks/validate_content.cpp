@@ -1,8 +1,8 @@
 // Checks of the content: each object has one source and one size, and the inverse pick-up can use its keys.
 
-#include "base/vec.h"
 #include "checks/findings.h"
 #include "display/keys.h"
+#include "geometry/vec.h"
 
 namespace lfdsim {
 namespace {

@@ -55,7 +55,7 @@ void validate_panel(const Display& d, Findings& findings) {
     // The tracer counts four times as many positions on such a panel, and its limit is 2^31.
     constexpr double most = two_to_31 / 4;
     const double pixels = double(panel.pixels[0]) * double(panel.pixels[1]);
-    if (!shines_all_over(panel) && pixels >= most && findings.sound("panel.pixels"))
+    if (!lights_whole_pixels(panel) && pixels >= most && findings.sound("panel.pixels"))
         findings.add("panel.pixels", "{} x {} = {:.0f}; allowed is a product below 2^29 = {:.0f} with subpixels or a black matrix",
                      panel.pixels[0], panel.pixels[1], pixels, most);
 }

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "base/vec.h"
 #include "checks/findings.h"
 #include "display/keys.h"
 #include "geometry/geometry.h"
 #include "geometry/lattice.h"
+#include "geometry/vec.h"
 
 namespace lfdsim {
 namespace {

@@ -1,7 +1,7 @@
 // The axes of a camera. Floor 0.
 #pragma once
-#include "base/vec.h"
 #include "display/display.h"
+#include "geometry/vec.h"
 
 namespace lfdsim {
 

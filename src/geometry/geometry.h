@@ -117,7 +117,7 @@ Geometry resolve(const Display&, double wavelength_nm);
 Theory theory(const Display&, const Geometry&);
 
 /// Returns the eye's distance from the panel that theory and measures assume, mm: that of the camera from the panel's centre.
-double eye_distance_mm(const Display&);
+double camera_distance_mm(const Display&);
 
 /// Returns the depth 1/per_mm, mm from the rear principal plane towards the viewer; infinite for 0.
 double depth_mm(double per_mm);

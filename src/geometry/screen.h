@@ -1,7 +1,7 @@
 // The part of the lens array that is a screen: what of it is in front of the panel. Floor 0.
 #pragma once
-#include "base/vec.h"
 #include "geometry/geometry.h"
+#include "geometry/vec.h"
 
 #include <array>
 #include <cmath>

@@ -188,16 +188,16 @@ std::vector<LitPart> bounded_parts(const Panel& panel) {
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel& panel) {
-    struct ShiningRect {
+    struct LitRect {
         std::size_t of;  // number of the subpixel
         CellRect rect;
     };
-    std::vector<ShiningRect> parts;
+    std::vector<LitRect> parts;
     for (std::size_t k = 0; k < panel.custom.size(); ++k) {
         std::vector<LitPart> of_one;
         add_parts(panel.custom[k], rect_of(panel.custom[k]), subpixel_cell(panel).size, 1, of_one);
         for (const LitPart& p : of_one) {
-            for (const ShiningRect& other : parts)
+            for (const LitRect& other : parts)
                 if (std::min(p.to[0], other.rect.to[0]) - std::max(p.from[0], other.rect.from[0]) > same &&
                     std::min(p.to[1], other.rect.to[1]) - std::max(p.from[1], other.rect.from[1]) > same)
                     return std::pair(other.of, k);
@@ -259,7 +259,7 @@ std::vector<PanelPlane> planes(const Panel& panel) {
     return all;
 }
 
-bool shines_all_over(const Panel& panel) { return panel.subpixels == SubpixelLayout::none && panel.aperture_ratio == 1; }
+bool lights_whole_pixels(const Panel& panel) { return panel.subpixels == SubpixelLayout::none && panel.aperture_ratio == 1; }
 
 double gain(const Panel& panel, int channel) {
     const SubpixelCell cell = subpixel_cell(panel);

@@ -77,7 +77,7 @@ class WhitePanel {
 std::vector<PanelPlane> planes(const Panel&);
 
 /// Returns whether every point of a pixel emits the pixel's colour, so that there are no subpixels and no black matrix.
-bool shines_all_over(const Panel&);
+bool lights_whole_pixels(const Panel&);
 
 /// Returns how many times brighter than the pixel's light the subpixels of a channel (0, 1, 2) emit, so that a white panel is
 /// white in the mean: the cell's area over that of the channel's subpixels in it.

@@ -3,13 +3,13 @@
 #include <limits>
 
 #include "base/constants.h"
-#include "base/vec.h"
 #include "geometry/dark_bands.h"
 #include "geometry/geometry.h"
 #include "geometry/layers.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/resolve.h"
 #include "geometry/screen.h"
+#include "geometry/vec.h"
 
 namespace lfdsim {
 
@@ -44,7 +44,7 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     // is x g/M from the axis, with M the distance from H' that the images are made for, and the image is p' = p (1 + g/M) wide. So
     // each of m lenses shows the image that belongs to it while |X/E| is below p'/2g - (m - 1)(p/2) |1/E - 1/M|. Below, e = g/M; 0
     // for parallel images.
-    const double made_for = d.content.viewing_distance_mm - g.rear_principal_mm, eye = eye_distance_mm(d) - g.rear_principal_mm;
+    const double made_for = d.content.viewing_distance_mm - g.rear_principal_mm, eye = camera_distance_mm(d) - g.rear_principal_mm;
     t.elemental_pitch_mm = p * (1 + gap / made_for);
     t.fov_elemental_deg = 2 * std::atan(t.elemental_pitch_mm / (2 * gap)) / degree;
     t.fov_exact_deg = d.lens.is_thin() ? exact_angle_deg(g, t.elemental_pitch_mm) : nan;
@@ -96,7 +96,7 @@ double reach_below_thin_lens_mm(const Geometry& g, double slope_squared) {
     return reach;
 }
 
-double eye_distance_mm(const Display& d) { return std::sqrt(dot(d.camera.position_mm, d.camera.position_mm)); }
+double camera_distance_mm(const Display& d) { return std::sqrt(dot(d.camera.position_mm, d.camera.position_mm)); }
 
 double depth_mm(double per_mm) { return per_mm == 0 ? std::numeric_limits<double>::infinity() : 1 / per_mm; }
 

@@ -2,8 +2,8 @@
 
 #include "base/constants.h"
 #include "base/input_error.h"
-#include "base/vec.h"
 #include "geometry/camera.h"
+#include "geometry/vec.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,7 +13,6 @@ namespace lfdsim {
 namespace {
 
 constexpr const char* eyes_key = "content.inverse.eyes_mm";
-constexpr double usual_pupil_mm = 4;
 
 std::string text_of(const Vec3d& p) { return fmt::format("[{:.5g}, {:.5g}, {:.5g}]", p[0], p[1], p[2]); }
 
@@ -192,7 +191,9 @@ Display seen_by_eye(const Display& display, const Geometry& geometry, const Vec3
     const CameraAxes axes = camera_axes(camera);
     const Vec3d middle{0, 0, content_z_mm};
     const double focus = dot(minus(middle, eye), axes.forward);
-    if (!(focus > 0)) throw InputError(eyes_key, fmt::format("an eye at {} is not in front of the content's middle", text_of(eye)));
+    if (!(focus > 0))
+        throw InputError("content.depth_mm", fmt::format("the content's middle, at z = {:.5g} mm, is not in front of an eye at {}",
+                                                         content_z_mm, text_of(eye)));
     const std::array<double, 2> half = half_slopes(geometry, eye, axes);
     const double slope = element_mm(display, geometry, eye, content_z_mm) / focus;  // of an element
     // A frame of whole elements over the array, with one to spare on each side for the shift

@@ -1,9 +1,9 @@
 #include "inverse/eye_views.h"
 
 #include "base/input_error.h"
-#include "base/vec.h"
 #include "engine/render.h"
 #include "geometry/camera.h"
+#include "geometry/vec.h"
 
 #include <tbb/parallel_for.h>
 

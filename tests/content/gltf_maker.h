@@ -1,6 +1,6 @@
 // glTF files written on the spot, and what their pictures show.
 #pragma once
-#include "base/vec.h"
+#include "geometry/vec.h"
 #include "image/formats/encoding.h"
 #include "image/formats/image_file.h"
 #include "small_world.h"

@@ -1,6 +1,6 @@
 // Scenes of several objects and images: where they stand, what hides what, and their light, against closed forms.
-#include "base/vec.h"
 #include "content/pictures/scene.h"
+#include "geometry/vec.h"
 #include "image/formats/encoding.h"
 #include "image/formats/image_file.h"
 #include "small_world.h"

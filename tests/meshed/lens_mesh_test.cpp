@@ -8,8 +8,8 @@
 
 #include "../optics/example.h"
 #include "base/constants.h"
-#include "base/vec.h"
 #include "files/description/display_file.h"
+#include "geometry/vec.h"
 #include "interchange/meshed/lens_mesh.h"
 
 namespace lfdsim {

@@ -331,7 +331,7 @@ TEST(Validate, WhatPassesIsFinite) {
         for (const double x : {t.along[0].fov_deg, t.central_depth_mm, t.pixel_image_mm, t.depth_of_field_mm, t.depth_near_per_mm,
                                t.depth_far_per_mm, t.along[0].elemental_pitch_mm, t.along[0].fov_elemental_deg})
             RC_ASSERT(!std::isnan(x));
-        RC_ASSERT(std::isnan(t.along[0].viewing_zone_deg) == !(eye_distance_mm(d) > g.rear_principal_mm));
+        RC_ASSERT(std::isnan(t.along[0].viewing_zone_deg) == !(camera_distance_mm(d) > g.rear_principal_mm));
     }));
 }
 

@@ -6,14 +6,12 @@
 namespace lfdsim {
 
 Estimate jackknife(const std::function<double(int without)>& figure) {
-    constexpr double student = 2.365;  // 95 % of Student's distribution with 7 degrees of freedom
-    static_assert(independent_sets == 8);
     Estimate result{figure(-1), std::numeric_limits<double>::quiet_NaN()};
     Sums each;
     double mean = 0, variance = 0;
     for (int k = 0; k < independent_sets; ++k) mean += (each[std::size_t(k)] = figure(k)) / independent_sets;
     for (const double x : each) variance += (x - mean) * (x - mean) * (independent_sets - 1) / independent_sets;
-    if (std::isfinite(result.value) && std::isfinite(variance)) result.error = student * std::sqrt(variance);
+    if (std::isfinite(result.value) && std::isfinite(variance)) result.error = student[independent_sets] * std::sqrt(variance);
     return result;
 }
 

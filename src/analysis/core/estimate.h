@@ -16,11 +16,12 @@ struct Estimate {
     double error = std::numeric_limits<double>::quiet_NaN();  // covers the true value in 95 of 100 cases
 };
 
-/// Returns the estimate from two to eight independent values: their mean, and as error `precision` + t s/sqrt(n), with s the
-/// values' standard deviation, t Student's factor for 95 % and n - 1 degrees of freedom, and `precision` the error of each value
-/// by itself.
+/// Student's factor for 95 % by the number of independent values, two to eight.
+inline constexpr std::array<double, 9> student{0, 0, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365};
+
+/// Returns the estimate from two to eight independent values: their mean, and as error `precision` + student[n] s/sqrt(n), with s
+/// the values' standard deviation and `precision` the error of each value by itself.
 inline Estimate estimate(std::span<const double> found, double precision = 0) {
-    constexpr std::array<double, 9> student{0, 0, 12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36};
     const double n = double(found.size());
     double sum = 0, squares = 0;
     for (const double x : found) sum += x / n;
@@ -31,8 +32,8 @@ inline Estimate estimate(std::span<const double> found, double precision = 0) {
 /// The number of independent sets of random numbers with which a figure is measured.
 inline constexpr int independent_sets = 8;
 
-/// Returns a figure of all sets together and its error by the jackknife, t sqrt((n - 1)/n sum (x_k - mean)^2) with t = 2.365 for
-/// n = 8 sets: x_k = figure(k) is the figure of all sets but k, figure(-1) that of all of them. The figure may be any smooth
+/// Returns a figure of all sets together and its error by the jackknife, student[n] sqrt((n - 1)/n sum (x_k - mean)^2)
+/// with n = 8 sets: x_k = figure(k) is the figure of all sets but k, figure(-1) that of all of them. The figure may be any smooth
 /// function of sums over the sets. If the error is not finite it is NaN.
 Estimate jackknife(const std::function<double(int without)>& figure);
 

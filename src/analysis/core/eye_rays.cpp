@@ -1,8 +1,8 @@
 #include "analysis/core/eye_rays.h"
 
 #include "base/constants.h"
-#include "base/vec.h"
 #include "engine/scene/traced_display.h"
+#include "geometry/vec.h"
 #include "optics/sampler.h"
 #include "optics/trace.h"
 

@@ -25,7 +25,7 @@ constexpr std::uint32_t most_sets = 16;  // of as many lines each, if few get th
 
 /// Returns an eye at the camera's distance, display frame; nothing if that is inside the display.
 std::optional<Vec3d> eye_before(const Display& d, const Geometry& g, double x = 0) {
-    const double distance = eye_distance_mm(d);
+    const double distance = camera_distance_mm(d);
     if (!(distance > nearest_eye_mm(g))) return {};
     return Vec3d{x, 0, distance};
 }
@@ -76,13 +76,13 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
 
 std::optional<TracedAndTheory> between_eyes_percent(const Display& as_made, const Geometry& g) {
     Display d = as_made;
-    d.content.viewing_distance_mm = eye_distance_mm(d);
-    const std::optional<Vec3d> eye = eye_before(d, g, -0.5 * usual_eyes_apart_mm);
+    d.content.viewing_distance_mm = camera_distance_mm(d);
+    const std::optional<Vec3d> eye = eye_before(d, g, -0.5 * usual_eye_separation_mm);
     if (!eye) return {};
     const Lattice<double>& l = g.lattice;
     // Both eyes fit into one viewing zone if it, E p'/g, is at least as wide as they are apart.
     const double image_mm = theory(d, g).along[0].elemental_pitch_mm / (l.strips ? l.cos_turn : 1);
-    if (!(((*eye)[2] - g.rear_principal_mm) * image_mm / g.gap_mm >= usual_eyes_apart_mm)) return {};
+    if (!(((*eye)[2] - g.rear_principal_mm) * image_mm / g.gap_mm >= usual_eye_separation_mm)) return {};
     const EyeRays rays(d, g);
     const ParaxialLines paraxial(d, g, *eye);
     const Pickup pickup(d, g);
@@ -154,15 +154,11 @@ std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm
                     where_sharp(fan, pixel_slope)};
 }
 
-namespace {
-
-constexpr double usual_pupil_mm = 4, near_eye_mm = 250;  // an eye right before the lenses sees through all of its pupil
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
-    const bool near = eye_distance_mm(d) < near_eye_mm;
-    const std::optional<Vec3d> eye = eye_before(d, g, near ? 0 : -0.5 * usual_eyes_apart_mm);
+    const bool near = camera_distance_mm(d) < nearest_sight_mm;  // an eye right before the lenses sees through all of its pupil
+    const std::optional<Vec3d> eye = eye_before(d, g, near ? 0 : -0.5 * usual_eye_separation_mm);
     if (!eye || d.panel.subpixels == SubpixelLayout::none) return {};
     // Red, and blue, less the luminance
     constexpr ChannelWeights mixtures[] = {{1 - luminance_weights[0], -luminance_weights[1], -luminance_weights[2]},

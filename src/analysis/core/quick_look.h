@@ -28,9 +28,6 @@ struct SeenAtOnce {
 /// Returns that width; nothing if the camera is inside the display, or if too little light gets through.
 std::optional<SeenAtOnce> seen_at_once(const Display&, const Geometry&);
 
-/// The usual distance between a viewer's eyes, mm.
-inline constexpr double usual_eyes_apart_mm = 65;
-
 /// Returns the crosstalk, per cent, between the eyes of a viewer in front of the screen's middle, at the camera's distance: the
 /// light through lenses that is intended for the other eye over that intended for the eye itself, with elemental images made for
 /// that distance. Nothing if both eyes do not fit into the viewing zone, E p'/g wide, or if too little light gets through.

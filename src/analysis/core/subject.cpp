@@ -22,7 +22,7 @@ RenderOptions Subject::rendering() const {
     return how;
 }
 
-double Subject::viewing_distance_mm() const { return options_.viewing_distance_mm.value_or(eye_distance_mm(display_)); }
+double Subject::viewing_distance_mm() const { return options_.viewing_distance_mm.value_or(camera_distance_mm(display_)); }
 
 const ContentScene& Subject::scene() const {
     if (!scene_) throw InputError("--model", "there is nothing to show; give a mesh file or built-in:spheres");

@@ -1,5 +1,6 @@
 // The subject of a measure: a display, what it shows, and options. Floor 3, public as a part of measure.h.
 #pragma once
+#include "base/constants.h"
 #include "base/job.h"
 #include "content/content.h"
 #include "display/display.h"
@@ -18,11 +19,11 @@ struct AnalysisOptions {
     std::vector<double> angles_deg;  // of the views, ascending; empty: see fov.h
     std::vector<double> depths_mm;   // of the content from the vertex plane towards the viewer, ascending; empty: see dof_depths.h
     std::optional<double> viewing_distance_mm =
-        {};                       // of eyes from the panel; default: the camera's distance from the panel's centre
-    double eye_distance_mm = 65;  // between a viewer's two eyes
-    double wavelength_nm = 550;   // of the diffraction limits
-    int threads = 0;              // 0: one for each processor
-    std::string device = {};      // of renderings, as RenderOptions::device
+        {};  // of eyes from the panel; default: the camera's distance from the panel's centre
+    double eye_distance_mm = usual_eye_separation_mm;  // between a viewer's two eyes
+    double wavelength_nm = 550;                        // of the diffraction limits
+    int threads = 0;                                   // 0: one for each processor
+    std::string device = {};                           // of renderings, as RenderOptions::device
 };
 
 /// Thrown if the caller cancels the work; nothing of the current measure is kept.

@@ -107,7 +107,8 @@ std::string focus_remedy(Display d, const Geometry& g) {
 std::string separation_remedy(const Display& d, const Geometry& g, const Theory& t, const SeenAtOnce& seen) {
     const double most = most_seen_share * seen.image_mm;
     if (d.lens.type() == LensType::pinhole && seen.through_apertures_mm > most) {
-        const double e = 1 + g.gap_mm / (eye_distance_mm(d) - g.rear_principal_mm), view = std::min(d.panel.pixel_pitch_mm, most);
+        const double e = 1 + g.gap_mm / (camera_distance_mm(d) - g.rear_principal_mm),
+                     view = std::min(d.panel.pixel_pitch_mm, most);
         return fmt::format(
             "The holes are too wide. Through holes of {0:.3g} mm radius (--set lens.aperture_radius_mm={0:.3g}) it would see one "
             "panel pixel",
@@ -144,25 +145,26 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
     if (!mixed) return {};
     const double more = mixed->traced - mixed->theory;
     const std::string eyes =
-        fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", usual_eyes_apart_mm, eye_distance_mm(d));
+        fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", usual_eye_separation_mm, camera_distance_mm(d));
     if (mixed->traced > most_aberrated_percent && more > most_more_percent)
         return fmt::format(
             "the lenses' aberration mixes what {} should see: crosstalk is {:.3g} %, and {:.2g} % in theory without aberration. {}",
             eyes, mixed->traced, mixed->theory, stop_remedy(d, stop_against_mixing(d, g)));
     // What an eye sees of the panel at once, projected through the lens to the eye's distance
-    const double wide = seen.width_mm.traced / g.gap_mm * (eye_distance_mm(d) - g.rear_principal_mm);
-    if (!(mixed->traced > most_mixed_percent && wide > usual_eyes_apart_mm)) return {};
+    const double wide = seen.width_mm.traced / g.gap_mm * (camera_distance_mm(d) - g.rear_principal_mm);
+    if (!(mixed->traced > most_mixed_percent && wide > usual_eye_separation_mm)) return {};
     return fmt::format(
         "{} see nearly the same: crosstalk is {:.3g} %, as each lens spreads what one eye should see over {} mm there. Views would "
         "separate from {} mm on, or with lenses and a diffuser that spread light by {:.2g} of that",
-        eyes, mixed->traced, digits(wide), digits(eye_distance_mm(d) * usual_eyes_apart_mm / wide), usual_eyes_apart_mm / wide);
+        eyes, mixed->traced, digits(wide), digits(camera_distance_mm(d) * usual_eye_separation_mm / wide),
+        usual_eye_separation_mm / wide);
 }
 
 /// Judges whether the lenses are nearly as sharp as without aberration.
 std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Theory& t) {
     const std::optional<LensBlur> b = blur(d, g);
     if (!b || !(b->pixels > most_blur_pixels)) return {};
-    const double eye = eye_distance_mm(d);
+    const double eye = camera_distance_mm(d);
     // From a thousand viewing distances on L is practically infinite: the lenses are focused on the panel.
     const double L = std::abs(t.central_depth_mm) > 1000 * eye ? infinity : t.central_depth_mm;
     const auto wide = [&](double pixels) {

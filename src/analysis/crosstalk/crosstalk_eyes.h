@@ -36,7 +36,7 @@ inline FigureValue figure_of(const Crosstalk& found) {
 inline FigureValue theory_figure(const Crosstalk& c) { return {c.percent.value, c.left_to_rounding ? left_to_rounding : ""}; }
 
 /// Returns whether many lines of sight end on a dark part of the panel, or on a dim channel: means then need more lines.
-inline bool structured(const Subject& s) { return !shines_all_over(s.display().panel); }
+inline bool structured(const Subject& s) { return !lights_whole_pixels(s.display().panel); }
 
 /// Eyes level with the screen's middle, at the viewing distance, and the light of each view that reaches them.
 class Eyes {

@@ -7,9 +7,9 @@
 #include "analysis/fov/fov.h"
 #include "analysis/pictures/views.h"
 #include "base/constants.h"
-#include "base/vec.h"
 #include "engine/views/pipelined.h"
 #include "geometry/screen.h"
+#include "geometry/vec.h"
 
 #include <algorithm>
 #include <cmath>

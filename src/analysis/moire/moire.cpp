@@ -146,7 +146,7 @@ std::vector<ChannelWeights> mixtures(const Display& d) {
 
 }  // namespace
 
-std::int64_t moire_steps(const Subject& s) { return pictures_worth(s, shines_all_over(s.display().panel) ? 1 : 9'000'000); }
+std::int64_t moire_steps(const Subject& s) { return pictures_worth(s, lights_whole_pixels(s.display().panel) ? 1 : 9'000'000); }
 
 Result measure_moire(Subject& s, Job& job) {
     const double distance = checked_viewing_distance_mm(s);
@@ -155,7 +155,7 @@ Result measure_moire(Subject& s, Job& job) {
     result.figures["viewing_distance_mm"] = distance;
     result.remarks.push_back(
         "A grey screen has the same pattern: all of its pixels emit alike, so period, direction and contrast are those of white.");
-    if (shines_all_over(d.panel)) {
+    if (lights_whole_pixels(d.panel)) {
         const std::string none = "the panel has no pixel structure: it has no subpixels, and panel.aperture_ratio is 1";
         const WaveEstimates found = Pattern().found, theory = theory_wave({});
         add_wave(result, "white.", found, true, none);

@@ -96,7 +96,7 @@ double MoireTheory::diffuser(WaveVector nu) const {
 }
 
 std::optional<Beat> MoireTheory::strongest(const EyeFilter& eye) const {
-    if (shines_all_over(display_.panel)) return {};
+    if (lights_whole_pixels(display_.panel)) return {};
     const Lattice<double>& lattice = geometry_.lattice;
     const ApertureShape aperture = aperture_shape(display_, geometry_);
     const double per_degree = mm_per_degree(eye_mm_ - geometry_.vertex_plane_mm),

@@ -49,7 +49,7 @@ Display seen_by(const Display& display, const Vec3d& eye) {
 }
 
 Display seen_from(const Display& display, double horizontal_deg, double vertical_deg) {
-    const double distance = eye_distance_mm(display), h = horizontal_deg * degree, v = vertical_deg * degree;
+    const double distance = camera_distance_mm(display), h = horizontal_deg * degree, v = vertical_deg * degree;
     return seen_by(display, {distance * std::sin(h) * std::cos(v), distance * std::sin(v), distance * std::cos(h) * std::cos(v)});
 }
 

@@ -102,7 +102,7 @@ PlotBar add_rules(Result& result, const std::string& region, const Curve& curve,
 /// Adds the resolution that lens pitch and panel pixels allow at each depth, as the eye sees it.
 void add_resolution(const Subject& s, Result& result, const std::vector<double>& depths) {
     const Geometry& g = s.geometry();
-    const double eye = eye_distance_mm(s.display());
+    const double eye = camera_distance_mm(s.display());
     const auto by_lens = [&](double z) { return lens_limit_per_mm(g, s.theory(), z, eye); };
     const auto by_pixel = [&](double z) { return pixel_limit_per_mm(s.display(), g, z); };
     DataTable table =
@@ -139,7 +139,7 @@ void add_likeness(Subject& s, Result& result, Plot& plot, const DepthRun& run, J
             "none of the depths that theory calls sharp can be seen from {:.4g} mm: they are among the lenses, at the eye or too "
             "far "
             "behind; --depths-mm chooses others",
-            eye_distance_mm(s.display()));
+            camera_distance_mm(s.display()));
         for (const char* name : {"ssim_rule_mm", "gradient_rule_mm", "most_alike_mm", "by_likeness"})
             result.add(name, FigureValue::none(why));
         result.remarks.push_back("Likeness was not measured: " + why + ".");

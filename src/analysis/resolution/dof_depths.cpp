@@ -22,7 +22,7 @@ Reach reach(const Subject& s) {
     const Display& d = s.display();
     const double size = 0.5 * g.content_height_mm.value_or(0);  // absent of objects without a common height; these have a scene
     const Vec3d half = s.has_scene() ? s.scene().half_size_mm() : Vec3d{size, size, size};
-    const double from_panel = eye_distance_mm(d), eye = from_panel - g.vertex_plane_mm;
+    const double from_panel = camera_distance_mm(d), eye = from_panel - g.vertex_plane_mm;
     const double rows_per_mm = double(d.camera.resolution[0]) / g.frame_width_mm;  // in the plane of the camera's target
     // The distance from the eye at which the scene is least_rows high
     const double farthest = 2 * half[1] * rows_per_mm * from_panel / least_rows;
@@ -37,7 +37,7 @@ DepthRun dof_depths(const Subject& s) {
         return {s.options().depths_mm, asked, asked};
     }
     const Geometry& g = s.geometry();
-    const double from_panel = eye_distance_mm(s.display()), eye = from_panel - g.vertex_plane_mm;
+    const double from_panel = camera_distance_mm(s.display()), eye = from_panel - g.vertex_plane_mm;
     // The ranges that theory calls sharp, bounded where they are infinite or reach the viewer, and a quarter more
     double low = 0, high = 0;
     for (const SharpRange& range :

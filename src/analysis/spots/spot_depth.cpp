@@ -72,7 +72,7 @@ class Teller {
   public:
     Teller(const Subject& s, Result& result)
         : geometry_(s.geometry()),
-          eye_mm_(eye_distance_mm(s.display())),
+          eye_mm_(camera_distance_mm(s.display())),
           pixel_slope_(s.display().panel.pixel_pitch_mm / s.geometry().gap_mm),
           result_(result) {}
 
@@ -238,7 +238,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const Fans both = fans(LensTrace(s.display(), g), {0, 0}, depth_fan_rays);
     const Fan fan(along_x ? both.meridional : both.sagittal);
     const std::size_t axis = along_x ? 0 : 1;
-    const double eye = eye_distance_mm(s.display());
+    const double eye = camera_distance_mm(s.display());
     const SharpRange by_pixel = sharp_by_pixel(g, t, eye);
     Teller tell(s, result);
     const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());

@@ -66,8 +66,8 @@ struct Ratio {
     const char *key, *name;
     Clock clock;
 };
-constexpr Ratio ratios_told[] = {{"time_to_papers_error_over_papers", "time", &Timing::median},
-                                 {"processor_time_to_papers_error_over_papers", "processor time", &Timing::processor_median}};
+constexpr Ratio printed_ratios[] = {{"time_to_papers_error_over_papers", "time", &Timing::median},
+                                    {"processor_time_to_papers_error_over_papers", "processor time", &Timing::processor_median}};
 
 /// The shortest time that the estimator was measured to take to an RMSE of `rmse` or less; none if no measured number of samples
 /// reaches it.
@@ -169,7 +169,7 @@ void report(const BenchView& view, const Reference& reference, const std::vector
              {"reference", {{"samples", reference.samples}, {"rmse", reference.rmse}}},
              {"points", rows}};
     if (wanted != points.end())
-        for (const Ratio& c : ratios_told) {
+        for (const Ratio& c : printed_ratios) {
             text += fmt::format("  {} to the RMSE of {} samples of \"{}\", over theirs:", c.name, papers_samples, papers.name);
             Json ratios = Json::object();
             for (const Contender& e : estimators) {

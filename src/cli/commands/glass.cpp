@@ -131,14 +131,14 @@ void check_plot(const GlassArguments& args) {
     detail::check_replaceable(path);
 }
 
-/// Prints the warnings of the named glass; without a name those of all glasses, at most `most_told` of them.
+/// Prints the warnings of the named glass; without a name those of all glasses, at most `most_listed` of them.
 void warn_of(const GlassCatalogue& catalogue, const std::string& name) {
-    constexpr std::size_t most_told = 10;
+    constexpr std::size_t most_listed = 10;
     std::size_t count = 0;
     for (const auto& [glass, doubt] : catalogue.doubts)
-        if ((name.empty() || same_name(glass, name)) && ++count <= most_told) spdlog::warn("{}: {}", doubt.where, doubt.what);
-    if (count > most_told)
-        spdlog::warn("{}: and {}", catalogue.file, counted(count - most_told, "more such glass", "more such glasses"));
+        if ((name.empty() || same_name(glass, name)) && ++count <= most_listed) spdlog::warn("{}: {}", doubt.where, doubt.what);
+    if (count > most_listed)
+        spdlog::warn("{}: and {}", catalogue.file, counted(count - most_listed, "more such glass", "more such glasses"));
 }
 
 void run(const GlassArguments& args) {

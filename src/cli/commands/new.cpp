@@ -93,7 +93,7 @@ LenticularRequest lenticular_request(const NewArguments& args) {
 }
 
 /// The warnings that `lfdsim check` prints for the display.
-std::vector<std::string> told_by_check(const Display& d) {
+std::vector<std::string> warnings_of_check(const Display& d) {
     const Geometry g = resolve(d);
     return worth_knowing(d, g, theory(d, g));
 }
@@ -108,7 +108,7 @@ std::string narrower(Request request, Design (*design)(const Request&), double f
         try {
             Design made = design(request);
             made.display.content.model = built_in_spheres;
-            if (told_by_check(made.display).empty())
+            if (warnings_of_check(made.display).empty())
                 return fmt::format("  A narrower field of view, --fov-deg {:g}, would give no advice.\n", fov);
         } catch (const InputError&) {
             break;  // lenses of a still narrower field are even farther from the panel
@@ -127,7 +127,7 @@ void finish(const NewArguments& args, Design& made, std::string (*write)(const D
     args.output.write(write(made, NewDescription::made_by()));
     const std::string name = shell_file(args.output.path());
     std::string text = fmt::format("{}: {}\n", args.output.path(), what);
-    if (const std::vector<std::string> doubts = told_by_check(made.display); !doubts.empty()) {
+    if (const std::vector<std::string> doubts = warnings_of_check(made.display); !doubts.empty()) {
         text +=
             "It is a valid display, but worth knowing (--set: an option of lfdsim check, view and others, or a key of the file):\n";
         for (const std::string& doubt : doubts) text += "  - " + doubt + "\n";

@@ -91,7 +91,9 @@ void run(const ViewArguments& args) {
     std::vector<std::filesystem::path> elsewhere{"."};
     for (const auto& file : {start.display, std::filesystem::path(start.model), start.panel_image})
         if (file.has_parent_path()) elsewhere.push_back(file.parent_path());
-    options.as_told = [hidden = view::HiddenPaths(folder, elsewhere)](const std::string& text) { return hidden.without(text); };
+    options.without_hidden = [hidden = view::HiddenPaths(folder, elsewhere)](const std::string& text) {
+        return hidden.without(text);
+    };
     // The panel is prepared before the address is printed: a description that cannot be shown ends the command here.
     view::Panels panels;
     Job nobody;

@@ -1,6 +1,6 @@
 #include "content/models/normals.h"
 
-#include "base/vec.h"
+#include "geometry/vec.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // The reference photograph. docs/model.md, "Reference photograph".
 
-#include "base/vec.h"
 #include "content/pictures/cast.h"
+#include "geometry/vec.h"
 #include "optics/camera.h"
 #include "optics/direction_numbers.h"
 

@@ -3,12 +3,12 @@
 #include "content/pictures/scene.h"
 
 #include "base/free_memory.h"
-#include "base/vec.h"
 #include "content/models/join.h"
 #include "content/models/memory.h"
 #include "content/models/turn.h"
 #include "display/keys.h"
 #include "engine/devices/memory.h"
+#include "geometry/vec.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>

@@ -151,7 +151,7 @@ void add_layers(optics::TracedDisplay<S>& scene, const Geometry& geometry) {
 template <class S>
 optics::Emission<S> make_emission(const Panel& panel) {
     optics::Emission<S> to{};
-    to.whole = shines_all_over(panel);
+    to.whole = lights_whole_pixels(panel);
     if (to.whole) return to;
     const std::vector<PanelPlane> all = planes(panel);
     for (const LitPart& from : bounded_parts(panel)) {

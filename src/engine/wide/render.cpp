@@ -140,15 +140,15 @@ Done render_there(Queue& queue, const DevicePanel& panel, const Tile& tile, floa
     frame.tile.crop_x = tile.x0;
     frame.tile.crop_y = tile.y0;
     frame.tile.crop_width = tile.x1 - tile.x0;
-    std::int64_t told = 0;  // pixels reported to the job
+    std::int64_t reported = 0;  // pixels reported to the job
     const bool complete = renderer.run_all([&](std::int64_t done) {
-        done = std::min(done, pixels - told);  // squares reach beyond the tile
-        told += done;
-        if (told < pixels) queue.seconds();  // waits, so that the caller does not run far ahead of the machine
+        done = std::min(done, pixels - reported);  // squares reach beyond the tile
+        reported += done;
+        if (reported < pixels) queue.seconds();  // waits, so that the caller does not run far ahead of the machine
         job.advance(done);
         return !job.cancelled();
     });
-    return {told * std::int64_t(tile.samples), complete};
+    return {reported * std::int64_t(tile.samples), complete};
 }
 
 Done render(Queue& queue, const DevicePanel& panel, const Tile& tile, std::optional<double> target_error, float* error, Job& job) {

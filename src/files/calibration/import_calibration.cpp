@@ -233,7 +233,7 @@ class CalibrationImport {
         for (std::size_t k = 0; k < 2; ++k)
             d.camera.resolution[k] = std::max(std::int64_t(std::round(1280 * double(c.pixels[k]) / longest)), std::int64_t(1));
         d.camera.pixel_filter = PixelFilter::box;
-        d.camera.pupil_diameter_mm = pupil_mm;
+        d.camera.pupil_diameter_mm = usual_pupil_mm;
         d.content.model = "built-in:spheres";
         d.content.depth_mm = 0;
         d.content.viewing_distance_mm = distance_mm;

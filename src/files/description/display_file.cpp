@@ -22,7 +22,7 @@ namespace {
 constexpr std::int64_t known_schema = 1;  // the only version of the format so far
 
 // More than a person fixes at once: a file of another kind in TOML can hold a hundred thousand unknown keys.
-constexpr std::size_t most_problems_told = 50;
+constexpr std::size_t most_problems_listed = 50;
 
 // The most elements of any list of tables.
 constexpr std::size_t most_elements = std::max({max_surfaces, max_layers, std::size_t(max_subpixels), max_objects});
@@ -285,9 +285,10 @@ class DisplayReader {
             return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
         });
         std::vector<Problem> problems;
-        for (std::size_t i = 0; i < std::min(all.size(), most_problems_told); ++i)
+        for (std::size_t i = 0; i < std::min(all.size(), most_problems_listed); ++i)
             problems.push_back({std::move(all[i].place.text), std::move(all[i].what)});
-        if (all.size() > most_problems_told) problems.push_back({"", fmt::format("and {} more", all.size() - most_problems_told)});
+        if (all.size() > most_problems_listed)
+            problems.push_back({"", fmt::format("and {} more", all.size() - most_problems_listed)});
         throw InputError(std::move(problems));
     }
 

@@ -1,5 +1,6 @@
 #include "files/description/write_first_order.h"
 
+#include "base/constants.h"
 #include "files/description/commented.h"
 #include "geometry/sharp_range.h"
 
@@ -70,7 +71,7 @@ std::string pitch_reason(const FirstOrder& o) {
                 3437.75 * o.display.array.pitch_mm[0] / eye, 3437.75 * o.theory.pixel_image_mm / (eye - L));
         case PitchRule::pupil:
             return fmt::format("It is about half of a pupil of {:g} mm, so that light from several lenses enters the eye at once.",
-                               pupil_mm);
+                               usual_pupil_mm);
         case PitchRule::lenses:
             return fmt::format(
                 "Wider lenses would resolve more, but fewer than {} of them would be left along the panel's shorter side.",
@@ -87,7 +88,7 @@ std::string pitch_reason(const FirstOrder& o) {
 
 void write_array(const FirstOrder& o, CommentedText& text) {
     const LensArray& array = o.display.array;
-    const double t = std::tan(o.request.fov_deg * std::acos(-1.0) / 360), eye = eye_distance_mm(o.display);
+    const double t = std::tan(o.request.fov_deg * std::acos(-1.0) / 360), eye = camera_distance_mm(o.display);
     const Geometry geometry = resolve(o.display);
     text.table("array");
     if (array.lattice != LatticeKind::square) text.key("lattice", array.lattice);

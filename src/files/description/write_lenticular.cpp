@@ -1,3 +1,4 @@
+#include "base/constants.h"
 #include "files/description/commented.h"
 #include "files/description/write_first_order.h"
 
@@ -11,7 +12,7 @@ std::string reason_for_views(const Lenticular& o) {
             return o.request.pitch_mm ? "As asked for by --pitch-mm." : "As asked for by --views.";
         case ViewsRule::eyes:
             return fmt::format("A viewer's eyes, {:g} mm apart, are two views apart, so that the picture follows the head.",
-                               usual_eyes_mm);
+                               usual_eye_separation_mm);
         case ViewsRule::lenses:
             break;
     }

@@ -233,7 +233,7 @@ class LensImport {
         const Geometry g = resolve_unchecked(d);
         const double room = request.distance_mm - g.vertex_plane_mm, depth = theory(d, g).central_depth_mm;
         if (request.distance_mm < nearest_sight_mm) {
-            d.camera.pupil_diameter_mm = pupil_mm;
+            d.camera.pupil_diameter_mm = usual_pupil_mm;
             d.camera.focus_distance_mm = depth < 0 && depth > -longest_mm ? rounded(room - depth) : 1000;
             notes.push_back("The eye is too near to see the lenses sharply: it has a pupil, and there is no diffuser.");
             return;

@@ -1,7 +1,7 @@
 #include "interchange/meshed/lens_mesh.h"
 
 #include "base/constants.h"
-#include "base/vec.h"
+#include "geometry/vec.h"
 #include "interchange/meshed/cell_sides.h"
 
 #include <fmt/format.h>

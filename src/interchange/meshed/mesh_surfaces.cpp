@@ -1,7 +1,7 @@
 #include "interchange/meshed/mesh_surfaces.h"
 
 #include "base/free_memory.h"
-#include "base/vec.h"
+#include "geometry/vec.h"
 
 #include <oneapi/tbb/task_arena.h>
 

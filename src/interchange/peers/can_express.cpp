@@ -3,7 +3,7 @@
 #include "display/colour.h"
 #include "geometry/lens_misalignment.h"
 #include "interchange/meshed/lens_mesh.h"
-#include "interchange/pov/pov_lens_pose.h"
+#include "interchange/pov/pov_lenses.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -58,12 +58,12 @@ class Refusals {
                        fmt::format("make {:.0f} lenses differ, each with separate shapes in the scene; at most {:.0f} may: give a "
                                    "smaller array.count, or give shift_mm, gap_mm, rotation_deg, wedge_deg and pitch_ppm only",
                                    lenses, most_pov_lenses));
-        const PovStands stands(d_, g_);
-        if (d_.array.surround == Surround::opaque && !stands.walls())
+        const PovLenses pov(d_, g_);
+        if (d_.array.surround == Surround::opaque && !pov.walls())
             add("errors",
                 "move or tilt lenses so far that their walls have no height in common for the scene's black sheet; give smaller "
                 "bow_mm, height_sd_mm, tilt_sd_deg and table, or thicker lenses");
-        if (d_.lens.stop_radius_mm && !stands.level())
+        if (d_.lens.stop_radius_mm && !pov.level())
             add("lens.stop_radius_mm",
                 "is that of holes in one sheet, but [errors] put lenses at different heights; leave out bow_mm, height_sd_mm and "
                 "heights in the table, or the stop");

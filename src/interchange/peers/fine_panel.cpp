@@ -59,7 +59,7 @@ double peak_of(const std::vector<LitPart>& parts, int times) {
 
 FinePanel fine_panel(const Display& display) {
     FinePanel fine{display, 1, 1, {}};
-    if (shines_all_over(display.panel)) return fine;
+    if (lights_whole_pixels(display.panel)) return fine;
     const std::vector<LitPart> parts = lit_parts(display.panel);
     while (fine.times < most_times && !shows_borders(parts, fine.times)) ++fine.times;
     fine.light = 1 / peak_of(parts, fine.times);

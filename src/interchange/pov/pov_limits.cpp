@@ -1,9 +1,9 @@
 #include "interchange/pov/pov_limits.h"
 
-#include "base/vec.h"
 #include "geometry/lens_misalignment.h"
+#include "geometry/vec.h"
 #include "interchange/peers/cell.h"
-#include "interchange/pov/pov_lens_pose.h"
+#include "interchange/pov/pov_lenses.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<std::string> pov_deviations(Display& shown, const Geometry& geometry
         all.push_back(
             fmt::format("array.aperture: bodies of glass that fill their cells are {} pitches of air apart; in lfdsim they touch",
                         2 * pov_gap_pitches));
-    if (opaque && lenses_differ(shown.errors) && PovStands(shown, geometry).overlap())
+    if (opaque && lenses_differ(shown.errors) && PovLenses(shown, geometry).overlap())
         all.push_back(
             "errors: where lenses overlap, a neighbour's wall or face may meet a lens's light; in lfdsim each is a separate body");
     const double least_mm = least_units / pov_units_per_mm(shown, geometry);

@@ -41,8 +41,9 @@ Json json_of(const std::optional<T>& value) {
 /// Returns the angles that the screen subtends horizontally and vertically from the axis at the camera's distance, 2 atan(w / 2E):
 /// w the smaller of the array's bounding box and the panel's side over 1 + g/E. NaN from inside the display.
 std::vector<double> screen_field_deg(const Display& d, const Geometry& g) {
-    const double eye = eye_distance_mm(d) - g.rear_principal_mm, c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
-    if (!(eye_distance_mm(d) > nearest_eye_mm(g))) return {nan, nan};
+    const double eye = camera_distance_mm(d) - g.rear_principal_mm, c = std::abs(g.lattice.cos_turn),
+                 s = std::abs(g.lattice.sin_turn);
+    if (!(camera_distance_mm(d) > nearest_eye_mm(g))) return {nan, nan};
     const auto field = [&](double array_mm, double panel_mm) {
         return 2 * std::atan(std::min(array_mm, panel_mm / (1 + g.gap_mm / eye)) / (2 * eye)) / degree;
     };
@@ -130,7 +131,7 @@ bool fills_cells(const Display& d, const Geometry& g) {
 /// Returns the sharp depths, named as in `analyze dof`, and the resolution limits as the eye sees them.
 std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory& t) {
     constexpr const char* inside = "the camera is inside the display or behind it";
-    const double eye = eye_distance_mm(d), z = g.content_depth_mm;
+    const double eye = camera_distance_mm(d), z = g.content_depth_mm;
     const bool pinhole = d.lens.type() == LensType::pinhole, before = eye > nearest_eye_mm(g);
     const char* none = pinhole   ? "a pinhole has no image plane"
                        : !before ? inside

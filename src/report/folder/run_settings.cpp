@@ -40,7 +40,7 @@ Json content_stamp(const Display& display) {
 namespace {
 
 /// Returns evenly spaced values as first, last and count; others as a list; null where there are none.
-Json told(const std::vector<double>& values) {
+Json series_json(const std::vector<double>& values) {
     if (values.empty()) return Json();
     const double step = (values.back() - values.front()) / double(std::max<std::size_t>(values.size() - 1, 1));
     for (std::size_t k = 0; k < values.size(); ++k)
@@ -55,8 +55,8 @@ Json run_settings(const Subject& subject, const std::string& version) {
     return {{"lfdsim", version},
             {"display", write_display(subject.display())},
             {"model", content_stamp(subject.display())},
-            {"angles_deg", told(options.angles_deg)},
-            {"depths_mm", told(options.depths_mm)},
+            {"angles_deg", series_json(options.angles_deg)},
+            {"depths_mm", series_json(options.depths_mm)},
             {"viewing_distance_mm", subject.viewing_distance_mm()},
             {"eye_distance_mm", options.eye_distance_mm},
             {"wavelength_nm", options.wavelength_nm}};

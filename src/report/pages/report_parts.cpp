@@ -90,7 +90,7 @@ std::string theory_rows(const Subject& s) {
     const auto number = [](double x, const char* unit) {
         return std::isfinite(x) ? fmt::format("{}{:.4g}{}", x < 0 ? "−" : "", std::abs(x), unit) : std::string("infinite");
     };
-    const double eye = eye_distance_mm(d);
+    const double eye = camera_distance_mm(d);
     const bool by_axis = differs_by_axis(d.array);
     const auto along = [&](double x, double y, const char* unit) {
         return by_axis ? number(x, unit) + " × " + number(y, unit) : number(x, unit);

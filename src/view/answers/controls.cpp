@@ -58,7 +58,7 @@ double suggested(std::string_view path, const Display& d, const Geometry& g) {
         {"array.base_z_mm", std::max(g.base_z_mm, 0.)},
         {"camera.frame_width_mm", g.frame_width_mm},
         {"camera.fov_deg", 2 * std::atan(0.5 * g.frame_width_mm / g.focus_distance_mm) / degree},
-        {"camera.pupil_diameter_mm", 4},  // of an eye indoors
+        {"camera.pupil_diameter_mm", usual_pupil_mm},
         {"camera.focus_distance_mm", g.focus_distance_mm},
         {"content.depth_mm", g.content_depth_mm},
         {"content.height_mm", g.content_height_mm.value_or(0.5 * g.panel_height_mm)},

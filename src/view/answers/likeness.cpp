@@ -2,7 +2,7 @@
 
 #include "analysis/core/subject.h"
 #include "analysis/pictures/views.h"
-#include "base/vec.h"
+#include "geometry/vec.h"
 #include "image/compare/ssim.h"
 #include "image/formats/encoding.h"
 

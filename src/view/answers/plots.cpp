@@ -6,7 +6,7 @@
 #include "analysis/pictures/views.h"
 #include "analysis/spots/ray_fan.h"
 #include "base/constants.h"
-#include "base/vec.h"
+#include "geometry/vec.h"
 
 #include <fmt/format.h>
 #include <algorithm>

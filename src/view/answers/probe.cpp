@@ -3,9 +3,9 @@
 #include "analysis/core/eye_rays.h"
 #include "base/constants.h"
 #include "base/counted.h"
-#include "base/vec.h"
 #include "engine/scene/traced_display.h"
 #include "geometry/geometry.h"
+#include "geometry/vec.h"
 #include "report/drawings/side_scale.h"
 
 #include <fmt/format.h>

@@ -25,15 +25,15 @@ class PainterJob : public Job {
     void advance(std::int64_t units) override {
         const std::int64_t done = done_ += units;
         std::int64_t next = next_;
-        if (done >= units_ || now() < next || told_ >= most_told || !next_.compare_exchange_strong(next, now() + quiet)) return;
-        ++told_;
+        if (done >= units_ || now() < next || calls_ >= most_calls || !next_.compare_exchange_strong(next, now() + quiet)) return;
+        ++calls_;
         tell_(name_, double(done) / double(units_));
     }
     bool cancelled() const override { return cancelled_(); }
 
   private:
     static constexpr std::int64_t quiet = 250;  // ms between two calls of tell
-    static constexpr int most_told = 100;       // calls in all: an outbox takes 256 texts
+    static constexpr int most_calls = 100;      // calls in all: an outbox takes 256 texts
     static std::int64_t now() {
         return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
     }
@@ -43,7 +43,7 @@ class PainterJob : public Job {
     std::string name_;
     std::int64_t units_ = 1;
     std::atomic<std::int64_t> done_{0}, next_{0};
-    std::atomic<int> told_{0};
+    std::atomic<int> calls_{0};
 };
 
 /// A job for writers, which do not check cancelled(): throws Stopped from advance() when the work is to end.

@@ -1,5 +1,6 @@
 // Messages from a browser to the viewer, parsed and checked: docs/view-protocol.md. Floor 5.
 #pragma once
+#include "base/constants.h"
 #include "display/display.h"
 #include "report/plots/svg.h"
 
@@ -33,7 +34,7 @@ struct Wanted {
     Vec3d eye_mm{0, 0, 2000};            // of the eye, or midway between two eyes; becomes camera.position_mm
     std::array<int, 2> size{1280, 720};  // columns and rows of one picture, 16 to 4096 each, most_pixels at most
     Layout layout = Layout::one;
-    double eye_distance_mm = 65;  // between two eyes, 0 to 1000
+    double eye_distance_mm = usual_eye_separation_mm;  // between two eyes, 0 to 1000
     Beside beside = Beside::none;
     bool moving = false;  // further states will follow soon: a coarse picture is enough
     bool operator==(const Wanted&) const = default;

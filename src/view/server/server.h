@@ -30,7 +30,7 @@ struct ServerOptions {
     std::chrono::seconds most_silence{120};  // of a browser; after half of it a ping is sent
     // Returns the text that is sent in place of a text; it hides what visitors may not know (hidden_paths.h). Empty: texts are not
     // changed.
-    std::function<std::string(const std::string&)> as_told = {};
+    std::function<std::string(const std::string&)> without_hidden = {};
 };
 
 /// Counts since the start, for tests and the log. `refused`: requests by access.h and visitors above most_visitors.

@@ -204,7 +204,7 @@ void Session::malformed(const std::string& what) {
 }
 
 void Session::text(std::string json) {
-    if (options_.as_told) json = options_.as_told(json);
+    if (options_.without_hidden) json = options_.without_hidden(json);
     if (mailbox_.text(std::move(json)))
         post([](Session& s) { s.write(); });
     else

@@ -57,12 +57,12 @@ void Answerer::work() {
         if (end_) return;
         const auto [wanted, question] = *std::exchange(next_, std::nullopt);
         lock.unlock();
-        const Json told = answer(library_, panels_, wanted, question, [this] {
+        const Json reply = answer(library_, panels_, wanted, question, [this] {
             const std::lock_guard here(mutex_);
             return end_ || next_.has_value();
         });
         lock.lock();
-        outbox_.text(told.dump());
+        outbox_.text(reply.dump());
     }
 }
 
@@ -92,8 +92,8 @@ void Visit::want(const Wanted& wanted) {
     wanted_ = wanted;
     painter_.want(wanted);
     // The message "resolved" takes milliseconds that a picture could use: while the eye moves, the command is not updated.
-    if (told_ && (wanted.moving ? same_controls(*told_, wanted) : same_state(*told_, wanted))) return;
-    told_ = wanted;
+    if (sent_ && (wanted.moving ? same_controls(*sent_, wanted) : same_state(*sent_, wanted))) return;
+    sent_ = wanted;
     outbox_.text(resolved(library_, wanted).dump());
 }
 

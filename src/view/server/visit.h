@@ -45,7 +45,7 @@ class Visit : public Visitor {
     const Library& library_;
     Panels& panels_;
     Outbox& outbox_;
-    std::optional<Wanted> wanted_, told_;  // told_: the state of the last message "resolved"
+    std::optional<Wanted> wanted_, sent_;  // sent_: the state of the last message "resolved"
     Painter painter_;
     Answerer plots_;
 };

@@ -21,17 +21,17 @@ namespace lfdsim::peers {
 /// The most lenses that may differ from each other in a scene, since each has separate shapes.
 inline constexpr double most_pov_lenses = 20'000;
 
-class PovStands {
+class PovLenses {
   public:
-    PovStands(const Display&, const Geometry&);
+    PovLenses(const Display&, const Geometry&);
 
-    std::size_t count() const { return stands_.size(); }
+    std::size_t count() const { return lenses_.size(); }
     const PovCell& cell() const { return cell_; }
     bool at_border(std::size_t k) const;
     double low() const { return low_; }    // heights lower and higher than all that any lens reaches, in its own frame
     double high() const { return high_; }  // and in the array's
-    const LensError& error(std::size_t k) const { return stands_[k].error; }  // with the bow in its height
-    double raised(std::size_t k) const { return stands_[k].raised; }          // by the bow
+    const LensError& error(std::size_t k) const { return lenses_[k].error; }  // with the bow in its height
+    double raised(std::size_t k) const { return lenses_[k].raised; }          // by the bow
 
     /// Returns the surfaces of lens k in its frame, with its curvature.
     std::vector<PlacedSurface> surfaces(std::size_t k) const;
@@ -70,7 +70,7 @@ class PovStands {
     bool level() const;
 
   private:
-    struct PovPose {
+    struct PovLens {
         std::int64_t i, j;
         std::array<double, 2> at;  // its lattice point, in the array's frame
         LensError error;
@@ -85,7 +85,7 @@ class PovStands {
     const Geometry& g_;
     const PovCell cell_;
     double far_, low_, high_;
-    std::vector<PovPose> stands_;
+    std::vector<PovLens> lenses_;
 };
 
 }  // namespace lfdsim::peers

@@ -1,4 +1,4 @@
-#include "interchange/pov/pov_lens_pose.h"
+#include "interchange/pov/pov_lenses.h"
 
 #include "base/constants.h"
 #include "engine/scene/misalignment.h"
@@ -22,7 +22,7 @@ bool moved(const LensError& e) { return e.aside_mm[0] != 0 || e.aside_mm[1] != 0
 
 }  // namespace
 
-PovStands::PovStands(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(d, g), far_(100 * sheet_half(g)) {
+PovLenses::PovLenses(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(d, g), far_(100 * sheet_half(g)) {
     low_ = g.base_z_mm - 1, high_ = g.top_z_mm + 1;
     // A tilted column reaches as far aside as its width, its displacement and the tilt at its lowest and highest points make it.
     const std::vector<LensError> errors = lenses_as_built(d, g.lattice);
@@ -40,7 +40,7 @@ PovStands::PovStands(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(
         high_ = std::max(high_, g.top_z_mm + 1 + std::abs(e.height_mm));
         const double upright = std::cos(e.tilt_deg[0] * degree) * std::cos(e.tilt_deg[1] * degree),
                      aslant = std::sqrt(std::max(0., 1 - upright * upright));
-        stands_.push_back({i,
+        lenses_.push_back({i,
                            j,
                            {at.x, at.y},
                            e,
@@ -51,23 +51,23 @@ PovStands::PovStands(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(
     }
 }
 
-bool PovStands::at_border(std::size_t k) const {
-    const PovPose& s = stands_[k];
+bool PovLenses::at_border(std::size_t k) const {
+    const PovLens& s = lenses_[k];
     return s.i == 0 || s.j == 0 || s.i == cell_.last(0) || s.j == cell_.last(1);
 }
 
-std::size_t PovStands::number(std::int64_t i, std::int64_t j) const { return std::size_t(j * (cell_.last(0) + 1) + i); }
+std::size_t PovLenses::number(std::int64_t i, std::int64_t j) const { return std::size_t(j * (cell_.last(0) + 1) + i); }
 
-std::vector<PlacedSurface> PovStands::surfaces(std::size_t k) const {
+std::vector<PlacedSurface> PovLenses::surfaces(std::size_t k) const {
     std::vector<PlacedSurface> own = g_.surfaces;
-    for (PlacedSurface& s : own) s.curvature_per_mm *= 1 + stands_[k].error.curvature;
+    for (PlacedSurface& s : own) s.curvature_per_mm *= 1 + lenses_[k].error.curvature;
     return own;
 }
 
 // A point q goes to v + Ry Rx (q - v) + errors, v the vertex on the lattice's axis (docs/model.md, "Errors"). POV-Ray's order of a
 // matrix: images of the axes, then the shift.
-std::string PovStands::frame(std::size_t k) const {
-    const auto& [i, j, at, e, raised, upright, aslant, reach] = stands_[k];
+std::string PovLenses::frame(std::size_t k) const {
+    const auto& [i, j, at, e, raised, upright, aslant, reach] = lenses_[k];
     const double x = at[0] + e.aside_mm[0], y = at[1] + e.aside_mm[1], z = e.height_mm;
     if (e.tilt_deg[0] == 0 && e.tilt_deg[1] == 0) return "translate " + vector(x, y, z);
     const double cx = std::cos(e.tilt_deg[0] * degree), sx = std::sin(e.tilt_deg[0] * degree),
@@ -77,23 +77,23 @@ std::string PovStands::frame(std::size_t k) const {
     return fmt::format("matrix <{}{},{},{}>", numbers, text(x - sy * cx * v), text(y + sx * v), text(z + v - cy * cx * v));
 }
 
-std::string PovStands::column(double radius, double wider) const {
+std::string PovLenses::column(double radius, double wider) const {
     const std::string round = cell_.column(radius + wider, low_, high_);
     if (d_.array.aperture == Aperture::circle) return round;
     const std::string prism = cell_.prism(low_, high_, wider);
     return radius < cell_.outer_radius() && !cell_.strips() ? "intersection { " + prism + " " + round + " }" : prism;
 }
 
-std::string PovStands::placed(std::size_t k, const std::string& shape) const { return "object { " + shape + " " + frame(k) + " }"; }
+std::string PovLenses::placed(std::size_t k, const std::string& shape) const { return "object { " + shape + " " + frame(k) + " }"; }
 
-std::vector<std::size_t> PovStands::near(std::size_t k) const {
-    const PovPose& own = stands_[k];
+std::vector<std::size_t> PovLenses::near(std::size_t k) const {
+    const PovLens& own = lenses_[k];
     const auto [x0, y0, x1, y1] = tile(k);
     std::vector<std::size_t> all;
     const std::int64_t rows = cell_.strips() ? 0 : 1;
     for (std::int64_t j = std::max<std::int64_t>(own.j - rows, 0); j <= std::min(own.j + rows, cell_.last(1)); ++j)
         for (std::int64_t i = std::max<std::int64_t>(own.i - 1, 0); i <= std::min(own.i + 1, cell_.last(0)); ++i) {
-            const PovPose& other = stands_[number(i, j)];
+            const PovLens& other = lenses_[number(i, j)];
             if (&other == &own) continue;
             const double dx = std::max({x0 - other.at[0], other.at[0] - x1, 0.}),
                          dy = cell_.strips() ? 0 : std::max({y0 - other.at[1], other.at[1] - y1, 0.});
@@ -104,31 +104,31 @@ std::vector<std::size_t> PovStands::near(std::size_t k) const {
     return all;
 }
 
-bool PovStands::overlap() const {
+bool PovLenses::overlap() const {
     if (d_.array.aperture == Aperture::cell)
-        return std::any_of(stands_.begin(), stands_.end(), [](const PovPose& s) { return moved(s.error); });
+        return std::any_of(lenses_.begin(), lenses_.end(), [](const PovLens& s) { return moved(s.error); });
     for (std::size_t k = 0; k < count(); ++k)
         for (const std::size_t m : near(k)) {
-            const PovPose &a = stands_[k], &b = stands_[m];
+            const PovLens &a = lenses_[k], &b = lenses_[m];
             const double y = cell_.strips() ? 0 : b.at[1] - a.at[1];
             if (std::hypot(b.at[0] - a.at[0], y) < a.reach + b.reach) return true;
         }
     return false;
 }
 
-std::array<double, 4> PovStands::tile(std::size_t k) const {
-    const PovPose& s = stands_[k];
+std::array<double, 4> PovLenses::tile(std::size_t k) const {
+    const PovLens& s = lenses_[k];
     const double x = g_.lattice.pitch[0] / 2 + seam_mm, y = g_.lattice.pitch[1] / 2 + seam_mm;
     return {s.i == 0 ? -far_ : s.at[0] - x, s.j == 0 ? -far_ : s.at[1] - y, s.i == cell_.last(0) ? far_ : s.at[0] + x,
             s.j == cell_.last(1) ? far_ : s.at[1] + y};
 }
 
-std::string PovStands::tile_box(std::size_t k, double low, double high) const {
+std::string PovLenses::tile_box(std::size_t k, double low, double high) const {
     const auto [x0, y0, x1, y1] = tile(k);
     return fmt::format("box {{ {}, {} }}", vector(x0, y0, low), vector(x1, y1, high));
 }
 
-std::string PovStands::flat(std::size_t k, double z, const std::vector<std::string>& holes) const {
+std::string PovLenses::flat(std::size_t k, double z, const std::vector<std::string>& holes) const {
     const auto [x0, y0, x1, y1] = tile(k);
     std::string clip = tile_box(k, z - 1, z + 1);
     for (const std::string& hole : holes) clip += " object { " + hole + " inverse }";
@@ -136,44 +136,44 @@ std::string PovStands::flat(std::size_t k, double z, const std::vector<std::stri
                        text(std::hypot(x1 - x0, y1 - y0)), clip);
 }
 
-std::string PovStands::box(std::size_t k) const {
-    const PovPose& s = stands_[k];
+std::string PovLenses::box(std::size_t k) const {
+    const PovLens& s = lenses_[k];
     const double x = std::max(s.reach, g_.lattice.pitch[0] / 2) + spare_mm,
                  y = cell_.strips() ? 1.1 * cell_.half_length() : std::max(s.reach, g_.lattice.pitch[1] / 2) + spare_mm;
     return fmt::format("box {{ {}, {} }}", vector(s.at[0] - x, s.at[1] - y, low_), vector(s.at[0] + x, s.at[1] + y, high_));
 }
 
-std::string PovStands::row_box(std::size_t k) const {
+std::string PovLenses::row_box(std::size_t k) const {
     double x = 0, y = 0;
-    for (std::size_t m = k; m < count() && stands_[m].j == stands_[k].j; ++m) {
-        x = std::max(x, std::abs(stands_[m].at[0]) + stands_[m].reach);
-        y = std::max(y, cell_.strips() ? 1.1 * cell_.half_length() : stands_[m].reach);
+    for (std::size_t m = k; m < count() && lenses_[m].j == lenses_[k].j; ++m) {
+        x = std::max(x, std::abs(lenses_[m].at[0]) + lenses_[m].reach);
+        y = std::max(y, cell_.strips() ? 1.1 * cell_.half_length() : lenses_[m].reach);
     }
     x += g_.lattice.pitch[0], y += g_.lattice.pitch[1];
-    return fmt::format("box {{ {}, {} }}", vector(-x, stands_[k].at[1] - y, low_), vector(x, stands_[k].at[1] + y, high_));
+    return fmt::format("box {{ {}, {} }}", vector(-x, lenses_[k].at[1] - y, low_), vector(x, lenses_[k].at[1] + y, high_));
 }
 
-std::string PovStands::hole(std::size_t k) const {
-    const PovPose& s = stands_[k];
+std::string PovLenses::hole(std::size_t k) const {
+    const PovLens& s = lenses_[k];
     return fmt::format("object {{ {} translate {} }}", cell_.column(*d_.lens.stop_radius_mm, low_, high_),
                        vector(s.at[0] + s.error.aside_mm[0], s.at[1] + s.error.aside_mm[1], s.error.height_mm));
 }
 
-std::string PovStands::stops() const {
+std::string PovLenses::stops() const {
     std::string all;
     for (std::size_t k = 0; d_.lens.stop_radius_mm && k < count(); ++k) {
         std::vector<std::string> holes{hole(k)};
         for (const std::size_t m : near(k)) holes.push_back(hole(m));
-        all += flat(k, g_.stop_z_mm + stands_[k].error.height_mm, holes) + black() + " transform { Place } }\n";
+        all += flat(k, g_.stop_z_mm + lenses_[k].error.height_mm, holes) + black() + " transform { Place } }\n";
     }
     return all;
 }
 
-std::optional<std::array<double, 2>> PovStands::walls() const {
+std::optional<std::array<double, 2>> PovLenses::walls() const {
     const bool filled = d_.array.aperture == Aperture::cell;
     double low = -INFINITY, high = INFINITY, step = 0;
     for (std::size_t k = 0; k < count(); ++k) {
-        const PovPose& s = stands_[k];
+        const PovLens& s = lenses_[k];
         double top = -INFINITY, bottom = INFINITY, wide = 0;
         for (const PlacedSurface& of : surfaces(k)) {
             top = std::max(top, rim_z(of));
@@ -186,15 +186,15 @@ std::optional<std::array<double, 2>> PovStands::walls() const {
         high = std::min(high, own + (top - v) * s.upright - wide * s.aslant);
         low = std::max(low, own + (bottom - v) * s.upright + wide * s.aslant);
         if (d_.errors.bow_mm != 0)
-            for (const std::size_t m : near(k)) step = std::max(step, std::abs(stands_[m].raised - s.raised));
+            for (const std::size_t m : near(k)) step = std::max(step, std::abs(lenses_[m].raised - s.raised));
     }
     if (high - low < 4 * step - same_mm) return std::nullopt;
     return std::array{low, std::max(low, high)};
 }
 
-bool PovStands::level() const {
-    return std::all_of(stands_.begin(), stands_.end(),
-                       [&](const PovPose& s) { return std::abs(s.error.height_mm - stands_.front().error.height_mm) < same_mm; });
+bool PovLenses::level() const {
+    return std::all_of(lenses_.begin(), lenses_.end(),
+                       [&](const PovLens& s) { return std::abs(s.error.height_mm - lenses_.front().error.height_mm) < same_mm; });
 }
 
 }  // namespace lfdsim::peers
