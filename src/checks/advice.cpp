@@ -20,6 +20,23 @@ std::vector<std::string> advice(const Display& d, const Geometry& g, const Theor
     return std::move(advised.sentences);
 }
 
+namespace {
+
+constexpr double common_index = 1.4918;  // of PMMA
+
+/// Returns the remedy for lenses with almost no power, by the keys that lenses of their type have.
+std::string power_remedy(const Display& d, const Geometry& g) {
+    if (d.lens.type() == LensType::ideal)
+        return fmt::format("Use a shorter focal length, such as the gap (--set lens.focal_length_mm={:.4g})", g.gap_mm);
+    if (d.lens.type() != LensType::plano_convex)
+        return "Use glass of an index well above 1 between the surfaces, or surfaces that are more curved";
+    if (d.lens.as<PlanoConvex>().index.value_or(common_index) < 1.3)
+        return fmt::format("Use glass of an index well above 1 (--set lens.index={:g})", common_index);
+    return "Use a surface that is more curved (a smaller lens.sphere_radius_mm)";
+}
+
+}  // namespace
+
 void advise_on_lenses(Advised& a) {
     const Display& d = a.display;
     const Geometry& g = a.geometry;
@@ -31,9 +48,8 @@ void advise_on_lenses(Advised& a) {
     if (!pinhole && !(std::abs(g.focal_length_mm) < 10 * g.gap_mm))
         a.say(
             "the lenses have almost no power (focal length {:.5g} mm, the panel {:.5g} mm behind them): they form no views, and "
-            "the panel itself is visible through them. Use glass of an index well above 1 (--set lens.index=1.4918), or surfaces "
-            "that are more curved",
-            g.focal_length_mm, g.gap_mm);
+            "the panel itself is visible through them. {}",
+            g.focal_length_mm, g.gap_mm, power_remedy(d, g));
     // Beyond a hundred panel heights an image plane is practically at infinity. That is intended where the scene is far away,
     // too, and with strips, which are focused on the panel so that an eye sees one view through each.
     else if (!pinhole && !is_strips(d.array) && !(std::abs(t.central_depth_mm) < 100 * g.panel_height_mm) &&

@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "checks/advice_parts.h"
 #include "geometry/dark_bands.h"
+#include "geometry/seen_width.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +81,14 @@ void advise_on_diffuser(Advised& a) {
             return 2 * height[k] * std::tan(d.diffuser->angle_deg[k] * degree / 2) / joining[k];
         };
         const double distance = d.diffuser->distance_mm + height[main] * (1 / spread(main) - 1);  // where this diffuser joins them
-        std::string remedy =
-            too_near ? "Use " + best : fmt::format("At its distance use {} ({})", degrees_text(angle), option_text(angle));
+        // An angle with which views do not separate is no remedy.
+        const double away = camera_distance_mm(d) - g.rear_principal_mm;
+        const bool mixing =
+            seen_through_lens_mm(g, away) + seen_by_diffuser_mm(g, away, angle[main], *g.diffuser_z_mm - g.rear_principal_mm) >
+            most_seen_share * a.theory.along[axis_of_eyes(g)].elemental_pitch_mm;
+        std::string remedy = too_near || mixing
+                                 ? "Use " + best
+                                 : fmt::format("At its distance use {} ({})", degrees_text(angle), option_text(angle));
         if ((strips || (joining[0] == joining[1] && wide == high)) && distance > g.top_z_mm - g.vertex_plane_mm &&
             distance < eye / 2)
             remedy += fmt::format(", or keep its angle at a distance of {0:.5g} mm (--set diffuser.distance_mm={0:.5g})", distance);

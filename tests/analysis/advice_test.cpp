@@ -12,6 +12,7 @@
 namespace lfdsim {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -50,6 +51,36 @@ Display near_eye() {
     d.camera.position_mm = {0, 0, 21.3};
     d.content.viewing_distance_mm = 21.3;
     return d;
+}
+
+// Each type of lens is advised to use a key that it has.
+TEST(Advice, OnPowerNamesKeysOfTheLens) {
+    Display d = tablet();
+    d.lens.as<PlanoConvex>().index = 1.04;
+    EXPECT_THAT(advice_for(d), Contains(AllOf(HasSubstr("almost no power"), HasSubstr("lens.index=1.4918"))));
+    d.lens.as<PlanoConvex>() = {40, 0.48, 0.5, 1.4918, Facing::viewer};
+    EXPECT_THAT(advice_for(d), Contains(AllOf(HasSubstr("almost no power"), HasSubstr("smaller lens.sphere_radius_mm"))));
+    d.lens.kind = IdealLens{0.48, 42};
+    EXPECT_THAT(advice_for(d), Contains(AllOf(HasSubstr("almost no power"), HasSubstr("--set lens.focal_length_mm=3.2)"),
+                                              testing::Not(HasSubstr("lens.index")))));
+}
+
+// Near a pinhole the angle that joins the holes would mix the views: another distance is advised.
+TEST(Advice, AnAngleThatMixesViewsIsNoRemedyForDarkBands) {
+    Display d;
+    d.panel.pixels = {1001, 701};
+    d.panel.pixel_pitch_mm = 0.1;
+    d.lens.kind = Pinhole{0.08};
+    d.array.count = {85, 60};
+    d.array.pitch_mm = 1.1;
+    d.array.gap_mm = 2.6;
+    d.array.aperture = Aperture::circle;
+    d.diffuser = Diffuser{5, {6, 3}, Profile::box};
+    d.camera.position_mm = {30, 10, 420};
+    d.content.viewing_distance_mm = 420;
+    EXPECT_THAT(advice_for(d), ElementsAre(AllOf(HasSubstr("dark bands"), HasSubstr("Use 2.864 degrees 22 mm in front"))));
+    d.diffuser = Diffuser{22, {2.864, 2.864}, Profile::box};
+    EXPECT_THAT(advice_for(d), IsEmpty());
 }
 
 TEST(Advice, NoneForReadyDisplays) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "../engine/pictures.h"
 #include "analysis/crosstalk/intended_light.h"
 #include "analysis/crosstalk/slope_spread.h"
@@ -303,6 +305,37 @@ TEST(Crosstalk, BelowThinLensesTheoryKnowsLayers) {
         EXPECT_NEAR(share(views.at("woods_percent")), share(views.at("theory_percent")), 0.005) << int(kind);
         EXPECT_LT(share(views.at("theory_percent")), 0.99) << int(kind);
     }
+}
+
+// Theory is each eye's own: a shift takes content from one eye to the other, not back.
+TEST(Crosstalk, TheoryIsOfEachEye) {
+    Display d = display(1e9);
+    d.errors.shift_mm = {0.1, 0};
+    const Json eyes = measured(d, 20).figures.at("between_eyes");
+    for (const std::string name : {"left_eye_", "right_eye_"}) {
+        const double percent = eyes.at(name + "percent");
+        EXPECT_NEAR(percent, eyes.at(name + "theory_percent"), 0.01 * percent + double(eyes.at(name + "percent_error"))) << name;
+    }
+    EXPECT_GT(eyes.at("right_eye_theory_percent"), 1.5 * double(eyes.at("left_eye_theory_percent")));
+    EXPECT_EQ(eyes.at("theory_percent"), eyes.at("right_eye_theory_percent"));
+}
+
+// What is infinite has no error, and says so; so does what no light decides, for its error, too.
+TEST(Crosstalk, NoNullWithoutAReason) {
+    Display d = display(eye_mm);
+    d.errors.shift_mm = {0.5 * pitch, 0};
+    const Result result = measured(d);
+    const std::function<void(const Json&, const std::string&)> look = [&](const Json& json, const std::string& path) {
+        for (const auto& [key, value] : json.items()) {
+            const std::string at = path.empty() ? key : path + "." + key;
+            if (value.is_object()) look(value, at);
+            if (value.is_null())
+                EXPECT_TRUE(result.notes.contains(at) || result.notes.contains(at.substr(0, at.rfind("_error")))) << at;
+        }
+    };
+    look(result.figures, "");
+    EXPECT_EQ(result.figures.at("between_eyes").at("left_eye_percent"), "infinite");
+    EXPECT_EQ(result.figures.at("between_views").at("woods_percent"), "infinite");
 }
 
 // A near eye's zone is narrower than the eyes are apart.

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "analysis/core/quick_look.h"
+#include "analysis/crosstalk/crosstalk.h"
+#include "checks/advice.h"
 #include "example.h"
+#include "geometry/lens_misalignment.h"
 #include "lenses.h"
 
 namespace lfdsim {
@@ -51,6 +54,21 @@ Display wall() {
     d.diffuser = Diffuser{300, {1.107754, 1.107754}, Profile::box};
     d.camera.position_mm = {0, 0, 3000};
     d.content.viewing_distance_mm = 3000;
+    return d;
+}
+
+/// Ideal lenses of 12 pixels for eyes at 800 mm, which see about a pixel through each.
+Display small_display() {
+    Display d;
+    d.panel.pixels = {1200, 800};
+    d.panel.pixel_pitch_mm = 0.12;
+    d.lens.kind = IdealLens{0.6, 4};
+    d.array.count = {100, 66};
+    d.array.pitch_mm = 1.44;
+    d.array.gap_mm = 4.2;
+    d.diffuser = Diffuser{84, {0.98, 0.98}, Profile::box};
+    d.camera.position_mm = {0, 0, 800};
+    d.content.viewing_distance_mm = 800;
     return d;
 }
 
@@ -121,16 +139,112 @@ TEST(Verdicts, ViewsThatDoNotSeparate) {
     EXPECT_THAT(verdicts_of(milky), Not(Contains(HasSubstr("views do not separate"))));
 }
 
+/// Returns the two angles that a text advises for the diffuser.
+std::array<double, 2> advised_angles(const std::string& text) {
+    const std::size_t at = text.find("diffuser.angle_deg=[") + 20;
+    return {std::stod(text.substr(at)), std::stod(text.substr(text.find(',', at) + 1))};
+}
+
+// Views mix across alone, and the angle upwards stays: less of it would leave dark bands.
+TEST(Verdicts, ADiffuserIsWeakenedAlongTheAxisAtFault) {
+    Display d = small_display();
+    d.diffuser->angle_deg = {20, 0.98};
+    const std::vector<std::string> told = verdicts_of(d);
+    ASSERT_THAT(told, ElementsAre(HasSubstr("views do not separate")));
+    d.diffuser->angle_deg = advised_angles(told[0]);
+    EXPECT_EQ(d.diffuser->angle_deg[1], 0.98);
+    EXPECT_THAT(verdicts_of(d), IsEmpty());
+    EXPECT_THAT(advice(d, resolve(d), theory(d, resolve(d))), IsEmpty());
+}
+
+// An array whose height is given has no gap of its own, and cannot be given one beside it.
+TEST(Verdicts, AGapIsAdvisedInPlaceOfTheHeight) {
+    Display d = small_display();
+    d.lens.as<IdealLens>().focal_length_mm = 2;
+    EXPECT_THAT(verdicts_of(d), Contains(HasSubstr("(--set array.gap_mm=2)")));
+    d.array.gap_mm.reset();
+    d.array.base_z_mm = 4.2;
+    EXPECT_THAT(verdicts_of(d), Contains(HasSubstr("(--set array.base_z_mm=none array.gap_mm=2)")));
+}
+
+// Bricks whose field of view is narrower upwards than across: the diffuser takes a quarter of each at most.
+TEST(Verdicts, ADiffuserAgainstColoursTakesAQuarterOfEachField) {
+    Display d = small_display();
+    d.panel.pixels = {1500, 1000};
+    d.panel.pixel_pitch_mm = 0.1;
+    d.panel.subpixels = SubpixelLayout::pentile_rgbg;
+    d.panel.aperture_ratio = 0.4;
+    d.lens.kind = IdealLens{{}, 3};
+    d.array.lattice = LatticeKind::brick;
+    d.array.aperture = Aperture::cell;
+    d.array.count.reset();
+    d.array.pitch_mm = {1.2, 0.7};
+    d.array.gap_mm = 3.15;
+    d.array.rotation_deg = 3;
+    d.diffuser = Diffuser{63, {1.1, 0.65}, Profile::box};
+    d.camera.position_mm = {50, -20, 500};
+    d.content.viewing_distance_mm = 500;
+    const std::vector<std::string> told = verdicts_of(d);
+    ASSERT_THAT(told, Contains(AllOf(HasSubstr("red, green and blue apart"), HasSubstr("diffuser.angle_deg="))));
+    const std::array<double, 2> angles = advised_angles(told.back());
+    for (const std::size_t k : {0u, 1u}) EXPECT_LE(angles[k], 0.251 * theory(d, resolve(d)).along[k].fov_deg) << k;
+    d.diffuser = Diffuser{std::stod(told.back().substr(told.back().find("distance_mm=") + 12)), angles, Profile::box};
+    EXPECT_THAT(verdicts_of(d), Not(Contains(HasSubstr("red, green and blue apart"))));
+}
+
 TEST(Verdicts, AberrationThatMixesTheEyes) {
     const Display d = wall();
-    const auto mixed = between_eyes_percent(d, resolve(d));
-    ASSERT_TRUE(mixed);
-    EXPECT_NEAR(mixed->traced, 20.65, 1.5);  // by 260 000 lines of sight
-    EXPECT_NEAR(mixed->theory, 2.88, 1);     // the closed form of lenses without aberration
     EXPECT_THAT(verdicts_of(d), ElementsAre(AllOf(HasSubstr("aberration mixes"), HasSubstr("lens.stop_radius_mm="))));
     Display perfect = d;
     perfect.lens.kind = IdealLens{2.022459, resolve(d).focal_length_mm};
     EXPECT_THAT(verdicts_of(perfect), IsEmpty());
+}
+
+/// Returns what the measure of crosstalk says of the worse eye, and of theory.
+std::array<double, 2> measured_between_eyes(const Display& d) {
+    Subject subject(d, {}, {});
+    Job job;
+    const Json eyes = measure_crosstalk(subject, job).figures.at("between_eyes");
+    const std::string worse = eyes.at("left_eye_percent") > eyes.at("right_eye_percent") ? "left_eye_" : "right_eye_";
+    return {eyes.at(worse + "percent"), eyes.at(worse + "theory_percent")};
+}
+
+// The verdict's figure is the measure's: of whole pixels, and of the worse eye.
+TEST(Verdicts, CrosstalkIsTheMeasures) {
+    Display shifted = small_display();
+    shifted.errors.shift_mm = {0.18, 0};
+    for (const Display& d : {wall(), shifted}) {
+        const auto [traced, in_theory] = measured_between_eyes(d);
+        const auto mixed = between_eyes(d, resolve(d));
+        ASSERT_TRUE(mixed);
+        EXPECT_NEAR(mixed->percent.traced / (100 + mixed->percent.traced), traced / (100 + traced), 0.02);
+        EXPECT_NEAR(mixed->percent.theory / (100 + mixed->percent.theory), in_theory / (100 + in_theory), 0.02);
+    }
+}
+
+// Errors of the whole array show one eye what is meant for the other one; lenses without aberration are not to blame.
+TEST(Verdicts, ErrorsOfAssemblyThatMixTheEyes) {
+    Display shifted = small_display(), turned = shifted, tilted = shifted, strips = shifted;
+    shifted.errors.shift_mm = {0.7, 0};
+    turned.errors.rotation_deg = 2;
+    tilted.errors.wedge_deg = {0, 3};
+    strips.array.lattice = LatticeKind::strips;
+    strips.array.count.reset();
+    strips.errors.shift_mm = {0.35, 0};
+    for (const Display& d : {shifted, turned, tilted, strips}) {
+        EXPECT_THAT(verdicts_of(d), ElementsAre(AllOf(HasSubstr("errors of assembly"), HasSubstr(" 0 % without them"),
+                                                      HasSubstr("content.made_for"), Not(HasSubstr("aberration")))));
+        EXPECT_THAT(verdicts_of(without_errors(d)), IsEmpty());
+    }
+    shifted.content.made_for = MadeFor::built;
+    EXPECT_THAT(verdicts_of(shifted), IsEmpty());
+}
+
+// An eye at the border of the viewing zone sees as much of the neighbouring elemental images.
+TEST(Verdicts, EyesAtTheEndsOfTheViewingZone) {
+    Display d = small_display();
+    d.camera.position_mm[2] = d.content.viewing_distance_mm = 65.5 * 4.2 / 1.44;
+    EXPECT_THAT(verdicts_of(d), Contains(AllOf(HasSubstr("see nearly the same"), HasSubstr("zone is only 65.5 mm wide"))));
 }
 
 // Of third order: eight times the blur for twice the aperture; none of an ideal lens.
@@ -220,7 +334,7 @@ TEST(Verdicts, EyesInsideTheDisplay) {
     d.diffuser.reset();
     d.camera.position_mm = {0, 0, 40};
     EXPECT_FALSE(seen_at_once(d, resolve(d)));
-    EXPECT_FALSE(between_eyes_percent(d, resolve(d)));
+    EXPECT_FALSE(between_eyes(d, resolve(d)));
     verdicts_of(d);
 }
 

@@ -40,10 +40,10 @@ EyePaths::EyePaths(const Display& d, const Geometry& g) {
         }
 }
 
-MetPlaces EyePaths::look(const Vec3d& eye, const LineSets& lines) const {
+MetPlaces EyePaths::look(const Vec3d& eye, const LineSets& lines, Counting counting) const {
     return {lines, rays_.size(), [&](const Choice& c, std::size_t path) -> std::optional<MetPlaces::Met> {
                 const Sight sight = rays_[path].look(eye, c);
-                if (!(sight.light > 0)) return {};
+                if (!(sight.light > 0) || (counting == Counting::by_lens && !sight.by_lens)) return {};
                 return MetPlaces::Met{sight.x, sight.y, sight.light};
             }};
 }

@@ -47,8 +47,10 @@ class MetPlaces {
 class EyePaths {
   public:
     EyePaths(const Display&, const Geometry&);
+    /// Which lines count: in `clear` and `plate` some pass between the lenses.
+    enum class Counting { all, by_lens };
     /// Returns the points that an eye's lines meet; the eye in the display's frame, mm.
-    MetPlaces look(const Vec3d& eye, const LineSets&) const;
+    MetPlaces look(const Vec3d& eye, const LineSets&, Counting = Counting::all) const;
 
     /// Returns, for each path, the weights by luminance of red, green and blue in its light.
     const std::vector<ChannelWeights>& weights() const { return weights_; }

@@ -1,12 +1,15 @@
 #include "analysis/core/quick_look.h"
 
 #include "analysis/core/eye_rays.h"
+#include "analysis/crosstalk/intended_light.h"
+#include "analysis/crosstalk/intended_theory.h"
 #include "analysis/crosstalk/paraxial_lines.h"
+#include "analysis/crosstalk/pixel_views.h"
 #include "analysis/moire/eye_filter.h"
 #include "analysis/moire/white_lines.h"
 #include "analysis/spots/ray_fan.h"
 #include "base/constants.h"
-#include "content/pickup/pickup.h"
+#include "geometry/seen_width.h"
 #include "optics/lattice.h"
 
 #include <algorithm>
@@ -48,7 +51,7 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
     const std::optional<Vec3d> eye = eye_before(d, g);
     if (!eye) return {};
     const Lattice<double>& l = g.lattice;
-    const std::size_t axis = !l.strips && std::abs(l.cos_turn) < std::abs(l.sin_turn) ? 1 : 0;
+    const std::size_t axis = axis_of_eyes(g);
     // The line from the eye through the nodal points of the lens at C meets the panel at e C, from where the display's axis meets
     // it. The part seen is measured from there.
     const double e = 1 + g.gap_mm / ((*eye)[2] - g.rear_principal_mm);
@@ -67,52 +70,31 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
                 // Paraxial positions are from the array's centre, at the offset o: (seen + o) - e (axis + o)
                 theory.push_back(along(line->seen) - e * along(line->axis) - (e - 1) * along(offset));
         }
-    // Without diffuser an eye sees D |1 + g/E - g/f| under a lens (docs/model.md, "Advice").
-    const double power = std::isfinite(g.focal_length_mm) ? g.gap_mm / g.focal_length_mm : 0, width = even_width(traced),
-                 through = g.clear_aperture_mm[axis] * std::abs(e - power);
+    const double width = even_width(traced), through = seen_through_lens_mm(g, (*eye)[2] - g.rear_principal_mm);
     if (std::isnan(width)) return {};
     return SeenAtOnce{lfdsim::theory(d, g).along[axis].elemental_pitch_mm, {width, even_width(theory)}, through};
 }
 
-std::optional<TracedAndTheory> between_eyes_percent(const Display& as_made, const Geometry& g) {
+std::optional<BetweenEyes> between_eyes(const Display& as_made, const Geometry& g) {
     Display d = as_made;
     d.content.viewing_distance_mm = camera_distance_mm(d);
-    const std::optional<Vec3d> eye = eye_before(d, g, -0.5 * usual_eye_separation_mm);
-    if (!eye) return {};
-    const Lattice<double>& l = g.lattice;
-    // Both eyes fit into one viewing zone if it, E p'/g, is at least as wide as they are apart.
-    const double image_mm = theory(d, g).along[0].elemental_pitch_mm / (l.strips ? l.cos_turn : 1);
-    if (!(((*eye)[2] - g.rear_principal_mm) * image_mm / g.gap_mm >= usual_eye_separation_mm)) return {};
-    const EyeRays rays(d, g);
-    const ParaxialLines paraxial(d, g, *eye);
-    const Pickup pickup(d, g);
-    const double per_mm = (pickup.scale - 1) / g.gap_mm;  // 1/D' of the viewer that the elemental images are made for
-    // The light intended for the eye itself and for the other eye.
-    struct CrosstalkSums {
-        double own = 0, other = 0;
-        int lines = 0;
-        double percent() const { return own > 0 ? 100 * other / own : other > 0 ? infinity : nan; }
-    } traced, in_theory;
-    // A line of slope m through x in the plane of H' is intended for viewers at the slope m + x/D', counted from the screen's
-    // middle; for the left eye, which looks here, if that is negative.
-    const auto add = [&](CrosstalkSums& light, double x, double y, double much) {
-        const NodalLine line = pickup.line(x, y);
-        if (!line.owned) return;
-        const double mx = line.mx + line.x * per_mm, my = line.my + line.y * per_mm;
-        ((l.strips ? optics::to_array(l, mx, my).x : mx) < 0 ? light.own : light.other) += much;
-        ++light.lines;
-    };
-    for (std::uint32_t set = 0; set < most_sets && traced.lines < lines_of_screen / 2; ++set)
-        for (const Choice& c : even_choices(lines_of_screen, set)) {
-            if (const Sight s = rays.look(*eye, c); s.light > 0 && s.by_lens) add(traced, s.x, s.y, s.light);
-            const Vec3d aim = rays.aim(*eye, c);
-            const auto line = paraxial.look(aim[0], aim[1], c[2], c[3]);
-            if (!line || !line->through || !paraxial.on_panel(line->seen)) continue;
-            const auto seen = optics::in_display(l, line->seen);
-            add(in_theory, seen.x, seen.y, 1);
-        }
-    if (traced.lines < fewest) return {};
-    return TracedAndTheory{traced.percent(), in_theory.percent()};
+    const std::optional<Vec3d> middle = eye_before(d, g);
+    if (!middle) return {};
+    const double distance = (*middle)[2], zone_mm = (distance - g.rear_principal_mm) * image_along_row_mm(d, g) / g.gap_mm;
+    if (!(zone_mm >= usual_eye_separation_mm)) return {};
+    const MeantPanel panel(d, g, d.content.sampling);
+    const EyePaths paths(d, g);
+    const MeantTheory paraxial(d, g, distance);
+    const LineSets lines(lines_of_screen / (2 * independent_sets) * paths.more_for(*middle), 0);
+    std::optional<BetweenEyes> worse;
+    for (const std::size_t side : {0u, 1u}) {
+        const double x = (double(side) - 0.5) * usual_eye_separation_mm;
+        const auto percent = [&](const MeantLight& light) { return crosstalk_of(light, leak_of_side(light, side)).percent.value; };
+        const double traced = percent({paths.look({x, 0, distance}, lines, EyePaths::Counting::by_lens), paths.weights(), panel});
+        if (std::isnan(traced) || (worse && traced <= worse->percent.traced)) continue;
+        worse = BetweenEyes{{traced, percent({paraxial.look(x, lines), {luminance_weights}, panel})}, zone_mm};
+    }
+    return worse;
 }
 
 std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm) {

@@ -28,10 +28,15 @@ struct SeenAtOnce {
 /// Returns that width; nothing if the camera is inside the display, or if too little light gets through.
 std::optional<SeenAtOnce> seen_at_once(const Display&, const Geometry&);
 
-/// Returns the crosstalk, per cent, between the eyes of a viewer in front of the screen's middle, at the camera's distance: the
-/// light through lenses that is intended for the other eye over that intended for the eye itself, with elemental images made for
-/// that distance. Nothing if both eyes do not fit into the viewing zone, E p'/g wide, or if too little light gets through.
-std::optional<TracedAndTheory> between_eyes_percent(const Display&, const Geometry&);
+/// The crosstalk of that eye of a viewer in front of the screen's middle, at the camera's distance, which has more of it.
+struct BetweenEyes {
+    TracedAndTheory percent;  // infinite: the eye sees only what is intended for the other one
+    double zone_mm;           // the viewing zone's width there, E p'/g
+};
+/// Returns the crosstalk between the eyes as docs/measures.md, "Crosstalk", defines it, with elemental images made for that
+/// distance, by fewer lines of sight and only of those that meet a lens. Nothing if both eyes do not fit into the viewing zone, if
+/// no light gets through, or if rounding decides on it.
+std::optional<BetweenEyes> between_eyes(const Display&, const Geometry&);
 
 /// The width of the light of the panel point on a lens's axis, in images of a panel pixel at the same depth. Light that is not
 /// evenly spread has the width of an even spread of the same variance, sqrt(12) sigma.

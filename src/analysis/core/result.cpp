@@ -47,6 +47,8 @@ void Result::add(const std::string& path, const FigureValue& value) {
         object = &(*object)[path.substr(start, dot - start)];
     write_value(*object, path.substr(start), value);
     if (!value.missing.empty()) note(path, value.missing);
+    for (std::size_t k = 0; k < value.errors.size(); ++k)
+        if (std::isnan(value.errors[k]) && std::isinf(value.numbers[k])) note(path + "_error", "an infinite figure has no error");
 }
 
 void Result::add(const std::string& path, const FigureValue& value, const FigureLine& line) {

@@ -5,7 +5,9 @@
 #include "base/constants.h"
 #include "content/pickup/shown_points.h"
 #include "geometry/dark_bands.h"
+#include "geometry/lens_misalignment.h"
 #include "geometry/resolve.h"
+#include "geometry/seen_width.h"
 #include "geometry/sharp_range.h"
 
 #include <fmt/format.h>
@@ -16,10 +18,9 @@
 namespace lfdsim {
 namespace {
 
-constexpr double most_seen_share = 0.5;    // of an elemental image at once: if an eye sees more, no position shows only one view
 constexpr double most_mixed_percent = 50;  // between the eyes: a third of the light is wrong
-// Between the eyes, and how much of it at least is due to aberration
-constexpr double most_aberrated_percent = 15, most_more_percent = 10;
+// Between the eyes, and how much of it at least is due to a fault that can be mended: aberration, or errors of assembly
+constexpr double most_mended_percent = 15, most_more_percent = 10;
 constexpr double most_blur_pixels = 1.5;
 // Share of the panel's light whose pixels have their centres on borders of elemental images
 constexpr double most_on_borders = 0.1;
@@ -45,16 +46,20 @@ struct Stop {
     double radius_mm, light_share;
 };
 
-/// Returns the widest stop, down to a fifth of the aperture, with which good(radius) holds, to 1/64 of that range; nothing if it
-/// does not hold even with the narrowest. The light that a stop leaves is its area's, of strips its width's, share.
+/// Returns the widest stop, down to a fifth of the aperture, with which good(display, radius) holds, to 1/64 of that range; nothing
+/// if it does not hold even with the narrowest. The light that a stop leaves is its area's, of strips its width's, share.
 template <class Good>
-std::optional<Stop> widest_stop(const Geometry& g, Good good) {
+std::optional<Stop> widest_stop(Display d, const Geometry& g, Good good) {
+    const auto holds = [&](double radius) {
+        d.lens.stop_radius_mm = radius;
+        return valid(d) && good(d, radius);
+    };
     const double all = 0.5 * widest_aperture_mm(g);
     double least = 0.2 * all, most = all;
-    if (!good(least)) return {};
+    if (!holds(least)) return {};
     for (int halved = 0; halved < 6; ++halved) {
         const double middle = 0.5 * (least + most);
-        (good(middle) ? least : most) = middle;
+        (holds(middle) ? least : most) = middle;
     }
     const double share = least / all;
     return Stop{least, g.lattice.strips ? share : share * share};
@@ -62,25 +67,31 @@ std::optional<Stop> widest_stop(const Geometry& g, Good good) {
 
 /// Returns the widest stop with which the light of a point is no wider than the image of a pixel.
 std::optional<Stop> stop_against_blur(const Display& d, const Geometry& g) {
-    return widest_stop(g, [&](double radius) {
+    return widest_stop(d, g, [&](const Display&, double radius) {
         const std::optional<LensBlur> b = blur(d, g, radius);
         return b && b->pixels <= 1;
     });
 }
 
-/// Returns the widest stop with which crosstalk between the eyes is at most 15 %.
-std::optional<Stop> stop_against_mixing(Display d, const Geometry& g) {
-    return widest_stop(g, [&](double radius) {
-        d.lens.stop_radius_mm = radius;
-        if (!valid(d)) return false;
-        const std::optional<TracedAndTheory> mixed = between_eyes_percent(d, resolve(d));
-        return mixed && mixed->traced <= most_aberrated_percent;
+/// Returns whether crosstalk is due to aberration, and too much.
+bool by_aberration(const TracedAndTheory& percent) {
+    return percent.traced > most_mended_percent && percent.traced - percent.theory > most_more_percent;
+}
+
+/// Returns the widest stop with which aberration no longer mixes what the eyes see.
+std::optional<Stop> stop_against_mixing(const Display& d, const Geometry& g) {
+    return widest_stop(d, g, [](const Display& stopped, double) {
+        const std::optional<BetweenEyes> mixed = between_eyes(stopped, resolve(stopped));
+        return mixed && !by_aberration(mixed->percent);
     });
 }
 
 std::string stop_remedy(const Display& d, const std::optional<Stop>& stop) {
-    const std::string asphere =
-        d.lens.type() == LensType::plano_convex ? "a lens with an aspheric surface (lens.type = \"surfaces\")" : "other surfaces";
+    // Below thin lenses without aberration it is that of the layers.
+    const std::string asphere = d.lens.type() == LensType::plano_convex
+                                    ? "a lens with an aspheric surface (lens.type = \"surfaces\")"
+                                : d.lens.is_thin() ? "thinner layers on the panel (panel.layer)"
+                                                   : "other surfaces";
     if (!stop) return fmt::format("Use weaker or smaller lenses, or {}", asphere);
     return fmt::format(
         "Use {}, or a stop of {:.3g} mm radius (--set lens.stop_radius_mm={:.3g}), which leaves {:.0f} % of the light", asphere,
@@ -95,17 +106,42 @@ std::string focus_remedy(Display d, const Geometry& g) {
         remedy += fmt::format(": with this glass a radius of {0:.4g} mm (lens.sphere_radius_mm = {0:.4g})",
                               d.lens.as<PlanoConvex>().sphere_radius_mm * stronger);
     if (d.lens.type() == LensType::ideal) remedy += fmt::format(" (--set lens.focal_length_mm={:.4g})", g.gap_mm);
+    const char* const only = d.array.base_z_mm ? "array.base_z_mm=none " : "";  // either key, not both
     d.array.base_z_mm.reset();
     d.array.gap_mm = g.focal_length_mm;
     if (g.focal_length_mm > 0 && !g.glued && valid(d))
-        remedy += fmt::format(", as would these at a gap of {0:.4g} mm (--set array.gap_mm={0:.4g})", g.focal_length_mm);
+        remedy += fmt::format(", as would these at a gap of {0:.4g} mm (--set {1}array.gap_mm={0:.4g})", g.focal_length_mm, only);
     return remedy;
 }
 
-/// Returns the remedy for views that do not separate, by the first cause that applies: holes too wide, lenses out of focus, the
-/// diffuser, aberration.
+/// Returns whether an eye sees at most half of an elemental image at once.
+bool separates(const SeenAtOnce& seen) { return seen.width_mm.traced <= most_seen_share * seen.image_mm; }
+
+/// Returns the remedy for views that a diffuser mixes: one that is weaker by a factor along the eyes' line alone, or along both
+/// axes where the array is turned so that both mix.
+std::string weaker_diffuser(Display d, const Geometry& g, double factor) {
+    const Diffuser given = *d.diffuser;
+    const std::size_t main = g.lattice.strips && std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn) ? 1 : 0;
+    std::array<double, 2>& angle = d.diffuser->angle_deg;
+    angle[main] *= factor;
+    const std::optional<SeenAtOnce> left = seen_at_once(d, g);
+    if (!left || !separates(*left)) angle[1 - main] *= factor;
+    return fmt::format(
+        "The diffuser mixes them ({:.4g} x {:.4g} degrees); use a weaker one (--set 'diffuser.angle_deg=[{:.3g}, {:.3g}]')",
+        given.angle_deg[0], given.angle_deg[1], angle[0], angle[1]);
+}
+
+/// Returns the remedy for views that do not separate, by the first cause that applies: errors of assembly, holes too wide, lenses
+/// out of focus, the diffuser, aberration.
 std::string separation_remedy(const Display& d, const Geometry& g, const Theory& t, const SeenAtOnce& seen) {
     const double most = most_seen_share * seen.image_mm;
+    if (has_errors(d.errors)) {
+        const Display meant = without_errors(d);
+        if (const std::optional<SeenAtOnce> without = seen_at_once(meant, resolve(meant)); without && separates(*without))
+            return fmt::format(
+                "Errors of assembly ([errors]) are the cause: without them it sees {:.3g} mm. Align the array better",
+                without->width_mm.traced);
+    }
     if (d.lens.type() == LensType::pinhole && seen.through_apertures_mm > most) {
         const double e = 1 + g.gap_mm / (camera_distance_mm(d) - g.rear_principal_mm),
                      view = std::min(d.panel.pixel_pitch_mm, most);
@@ -120,44 +156,74 @@ std::string separation_remedy(const Display& d, const Geometry& g, const Theory&
     if (d.diffuser && seen.width_mm.theory > most) {
         const double of_diffuser = seen.width_mm.theory - seen.through_apertures_mm,
                      scale = std::clamp((0.9 * most - seen.through_apertures_mm) / of_diffuser, 0.05, 1.);
-        return fmt::format(
-            "The diffuser mixes them ({:.4g} x {:.4g} degrees); use a weaker one (--set "
-            "'diffuser.angle_deg=[{:.3g}, {:.3g}]')",
-            d.diffuser->angle_deg[0], d.diffuser->angle_deg[1], scale * d.diffuser->angle_deg[0], scale * d.diffuser->angle_deg[1]);
+        return weaker_diffuser(d, g, scale);
     }
     return "The lenses' aberration is the cause. " + stop_remedy(d, stop_against_blur(d, g));
 }
 
 /// Judges whether views separate at all: an eye must see at most half of an elemental image at once.
 std::optional<std::string> on_separation(const Display& d, const Geometry& g, const Theory& t, const SeenAtOnce& seen) {
-    if (!(seen.width_mm.traced > most_seen_share * seen.image_mm)) return {};
+    if (separates(seen)) return {};
     const bool differ = std::abs(seen.width_mm.traced - seen.width_mm.theory) > 0.05 * seen.image_mm;
+    return fmt::format("views do not separate: one eye sees {} of the {:.3g} mm under each lens at once{}. {}",
+                       seen.width_mm.theory < seen.image_mm ? fmt::format("{:.3g}", seen.width_mm.theory) : "all", seen.image_mm,
+                       differ ? fmt::format(" by paraxial theory, {:.3g} mm as traced", seen.width_mm.traced) : "",
+                       separation_remedy(d, g, t, seen));
+}
+
+/// Returns crosstalk as text.
+std::string percent_text(double percent) {
+    return std::isinf(percent) ? "infinite (one eye sees only what the other should see)" : fmt::format("{} %", digits(percent));
+}
+
+/// Returns the text on errors of assembly that mix what two eyes should see; nothing if they are not the cause.
+std::optional<std::string> on_errors(const Display& d, const BetweenEyes& mixed, const std::string& eyes) {
+    const auto mended = [&](const Display& changed) -> std::optional<double> {
+        const std::optional<BetweenEyes> left = valid(changed) ? between_eyes(changed, resolve(changed)) : std::nullopt;
+        if (!left || mixed.percent.traced - left->percent.traced <= most_more_percent) return {};
+        return left->percent.traced;
+    };
+    const std::optional<double> without = has_errors(d.errors) ? mended(without_errors(d)) : std::nullopt;
+    if (!without) return {};
+    Display known = d;
+    known.content.made_for = MadeFor::built;
+    const std::optional<double> if_known = mended(known);
     return fmt::format(
-        "views do not separate: one eye sees {} of the {:.3g} mm under each lens at once{}. {}",
-        seen.width_mm.theory < seen.image_mm ? fmt::format("{:.3g}", seen.width_mm.theory) : "all", seen.image_mm,
-        differ ? fmt::format(" by paraxial theory, {:.3g} mm with the lenses' aberration", seen.width_mm.traced) : "",
-        separation_remedy(d, g, t, seen));
+        "errors of assembly ([errors]) mix what {} should see: crosstalk is {}, and {} without them. Align the array "
+        "better{}",
+        eyes, percent_text(mixed.percent.traced), percent_text(*without),
+        if_known ? fmt::format(", or make content for the array as built (--set 'content.made_for=\"built\"'), which "
+                               "leaves {}",
+                               percent_text(*if_known))
+                 : "");
 }
 
 /// Judges whether a viewer's eyes see different views.
 std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const SeenAtOnce& seen) {
-    const std::optional<TracedAndTheory> mixed = between_eyes_percent(d, g);
-    if (!mixed) return {};
-    const double more = mixed->traced - mixed->theory;
-    const std::string eyes =
-        fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", usual_eye_separation_mm, camera_distance_mm(d));
-    if (mixed->traced > most_aberrated_percent && more > most_more_percent)
+    const std::optional<BetweenEyes> mixed = between_eyes(d, g);
+    if (!mixed || !(mixed->percent.traced > most_mended_percent)) return {};
+    const auto [traced, in_theory] = mixed->percent;
+    const double eye = camera_distance_mm(d), apart = usual_eye_separation_mm;
+    const std::string eyes = fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", apart, eye);
+    if (std::optional<std::string> errors = on_errors(d, *mixed, eyes)) return errors;
+    if (by_aberration(mixed->percent))
         return fmt::format(
-            "the lenses' aberration mixes what {} should see: crosstalk is {:.3g} %, and {:.2g} % in theory without aberration. {}",
-            eyes, mixed->traced, mixed->theory, stop_remedy(d, stop_against_mixing(d, g)));
-    // What an eye sees of the panel at once, projected through the lens to the eye's distance
-    const double wide = seen.width_mm.traced / g.gap_mm * (camera_distance_mm(d) - g.rear_principal_mm);
-    if (!(mixed->traced > most_mixed_percent && wide > usual_eye_separation_mm)) return {};
+            "the lenses' aberration mixes what {} should see: crosstalk is {}, and {} in theory without aberration. {}", eyes,
+            percent_text(traced), percent_text(in_theory), stop_remedy(d, stop_against_mixing(d, g)));
+    if (!(traced > most_mixed_percent)) return {};
+    const std::string fault = fmt::format("{} see nearly the same: crosstalk is {}, as ", eyes, percent_text(traced));
+    // In the middle of the halves of a viewing zone an eye is farthest from what is intended for the other one.
+    if (mixed->zone_mm < 2 * apart)
+        return fmt::format(
+            "{}the viewing zone is only {} mm wide there, and beyond it the lenses show their neighbours' images. Twice the eyes' "
+            "distance would be best, as from {} mm on",
+            fault, digits(mixed->zone_mm), digits(eye * 2 * apart / mixed->zone_mm));
+    // What an eye sees of the panel at once, in whole pixels, projected through the lens to the eye's distance
+    const double wide = (seen.width_mm.traced + d.panel.pixel_pitch_mm) / g.gap_mm * (eye - g.rear_principal_mm);
     return fmt::format(
-        "{} see nearly the same: crosstalk is {:.3g} %, as each lens spreads what one eye should see over {} mm there. Views would "
-        "separate from {} mm on, or with lenses and a diffuser that spread light by {:.2g} of that",
-        eyes, mixed->traced, digits(wide), digits(camera_distance_mm(d) * usual_eye_separation_mm / wide),
-        usual_eye_separation_mm / wide);
+        "{}each lens spreads what one eye should see over {} mm there. Views would separate from {} mm on, or with lenses and a "
+        "diffuser that spread light by {:.2g} of that",
+        fault, digits(wide), digits(eye * apart / wide), apart / wide);
 }
 
 /// Judges whether the lenses are nearly as sharp as without aberration.
@@ -189,7 +255,7 @@ std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Th
 }
 
 /// Returns the remedy that mixes the colours, found by trial: colours along the strips, slanted strips, a diffuser.
-std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& wave) {
+std::string mixing_remedy(const Display& d, const Geometry& g, const Theory& t, const ColourWave& wave) {
     const auto helps = [](const Display& changed) {
         if (!valid(changed)) return false;
         const std::optional<ColourWave> left = colour_wave(changed, resolve(changed));
@@ -207,10 +273,12 @@ std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& w
             leaning.array.slant_deg = std::atan(share) / degree;
             if (helps(leaning)) return fmt::format("Slant the strips (--set array.slant_deg={:.4g})", *leaning.array.slant_deg);
         }
-    // A diffuser must take no more than a quarter of the field of view, or it mixes views as well, and must make no dark bands in
-    // place of coloured ones. It is tried at its present distance and near the lenses, with angles that move the wave by 1, 1.5
-    // and 2 periods.
-    const double near = 0.5 * d.array.pitch_mm.least(), most = 0.25 * t.along[0].fov_deg;
+    // A diffuser must take no more than a quarter of the field of view along either axis (of strips along both of that across
+    // them), or it mixes views as well, and must make no dark bands in place of coloured ones. It is tried at its present distance
+    // and near the lenses, with angles that move the wave by 1, 1.5 and 2 periods.
+    const double near = 0.5 * d.array.pitch_mm.least();
+    const bool strips = g.lattice.strips, on_side = std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn);
+    const auto most = [&](std::size_t k) { return 0.25 * t.along[strips ? 0 : on_side ? 1 - k : k].fov_deg; };
     const auto bands = [](const Display& of) {
         const auto [across, up] = band_contrast(of, resolve(of));
         return std::isnan(up) ? across : std::max(across, up);
@@ -224,8 +292,8 @@ std::string mixing_remedy(const Display& d, const Theory& t, const ColourWave& w
             std::array<double, 2>& angle = diffused.diffuser->angle_deg;
             for (const std::size_t k : {0u, 1u})
                 if (const double per_degree = std::abs(wave.turned_per_degree[k]); per_degree > 1e-3)
-                    angle[k] = std::max(angle[k], periods / per_degree);
-            if (std::max(angle[0], angle[1]) <= most && helps(diffused) && !(bands(diffused) > most_bands))
+                    angle[k] = std::max(angle[k], std::min(periods / per_degree, most(k)));
+            if (helps(diffused) && !(bands(diffused) > most_bands))
                 return fmt::format(
                     "A diffuser of {0:.3g} x {1:.3g} degrees {2:.3g} mm in front of the lenses mixes them (--set "
                     "diffuser.distance_mm={2:.3g} 'diffuser.angle_deg=[{0:.3g}, {1:.3g}]')",
@@ -283,7 +351,7 @@ std::optional<std::string> on_colours(const Display& d, const Geometry& g, const
     return fmt::format(
         "the lenses show the panel's red, green and blue apart: a white screen {} (red or blue against luminance: contrast "
         "{:.2f}). {}",
-        seen, wave->contrast, mixing_remedy(d, t, *wave));
+        seen, wave->contrast, mixing_remedy(d, g, t, *wave));
 }
 
 }  // namespace

@@ -98,25 +98,26 @@ ViewsCrosstalk look_at_views(Eyes& eyes) {
     return views;
 }
 
-/// Adds the figures of the innermost view, for content as described and for the other sampling.
-void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling sampling, Result& result) {
-    const auto line = [](const std::string& label, const Middle& found) {
+/// Adds the figures of the innermost view, for content as described and for the other sampling. `none`: why figures are missing.
+void add_middle(const Eyes& eyes, const ViewsCrosstalk& views, ContentSampling sampling, const char* none, Result& result) {
+    const auto line = [&](const std::string& label, const Middle& found) {
         return FigureLine{.label = label,
                           .unit = "%",
-                          .theory = found.theory.percent.value,
+                          .theory = theory_figure(found.theory, none),
                           .remark = "all other views together, relative to the intended one; the panel's black is 0"};
     };
-    for (const auto& [name, formula] : definitions) result.add(std::string("between_views.") + name, views.middle.measured.percent);
-    result.add("between_views.theory_percent", theory_figure(views.middle.theory));
+    const Middle &middle = views.middle, &of_other = views.middle_of_other;
+    for (const auto& [name, formula] : definitions)
+        result.add(std::string("between_views.") + name, figure_of(middle.measured, none));
+    result.add("between_views.theory_percent", theory_figure(middle.theory, none));
     const std::string of = eyes.other ? fmt::format("; {}", made_for(sampling)) : "";
-    result.add_line(
-        figure_of(views.middle.measured),
-        line("Crosstalk between views, for the innermost view: by Woods, IEC 62629-22-1 and IDMS alike" + of, views.middle));
+    result.add_line(figure_of(middle.measured, none),
+                    line("Crosstalk between views, for the innermost view: by Woods, IEC 62629-22-1 and IDMS alike" + of, middle));
     if (!eyes.other) return;
     result.figures["between_views"]["other_sampling"]["sampling"] = name_of(*eyes.other_sampling);
-    result.add("between_views.other_sampling.woods_percent", figure_of(views.middle_of_other.measured),
-               line(fmt::format("The same; {}", made_for(*eyes.other_sampling)), views.middle_of_other));
-    result.add("between_views.other_sampling.theory_percent", theory_figure(views.middle_of_other.theory));
+    result.add("between_views.other_sampling.woods_percent", figure_of(of_other.measured, none),
+               line(fmt::format("The same; {}", made_for(*eyes.other_sampling)), of_other));
+    result.add("between_views.other_sampling.theory_percent", theory_figure(of_other.theory, none));
 }
 
 /// Adds the crosstalk between views: figures, and a table of all views.
@@ -126,18 +127,17 @@ void between_views(const Subject& s, Eyes& eyes, Result& result) {
     json["view_step_deg"] = s.theory(0).view_step_deg;
     json["whole_views"] = eyes.views.count();
     json["innermost_view"] = eyes.views.innermost();
-    const ViewsCrosstalk views = eyes.views.count() > 0 ? look_at_views(eyes) : ViewsCrosstalk();
-    if (eyes.views.count() == 0)
-        result.note("between_views", "a view is a strip one panel pixel wide, and elemental images are narrower than a pixel");
-    else if (views.middle.measured.left_to_rounding)
-        result.note("between_views", left_to_rounding);
-    else if (std::isnan(views.middle.measured.percent.value))
-        result.note("between_views", "no light that is meant for any lens reaches an eye in front of the screen's middle");
-    add_middle(eyes, views, s.display().content.sampling, result);
-    result.add("between_views.next_view_alone_percent", figure_of(views.next[views.innermost]));
-    result.add("between_views.median_view_percent", figure_of(views.all[views.ranked(0.5)]));
+    const bool any = eyes.views.count() > 0;
+    const ViewsCrosstalk views = any ? look_at_views(eyes) : ViewsCrosstalk();
+    const char* const none =
+        any ? no_light : "a view is a strip one panel pixel wide, and elemental images are narrower than a pixel";
+    const FigureValue middle = figure_of(views.middle.measured, none);
+    if (!middle.missing.empty()) result.note("between_views", middle.missing);
+    add_middle(eyes, views, s.display().content.sampling, none, result);
+    result.add("between_views.next_view_alone_percent", figure_of(views.next[views.innermost], none));
+    result.add("between_views.median_view_percent", figure_of(views.all[views.ranked(0.5)], none));
     json["worst_view"] = views.view[views.worst_at];
-    result.add("between_views.worst_view_percent", figure_of(views.worst));
+    result.add("between_views.worst_view_percent", figure_of(views.worst, none));
     DataTable table = DataTable::of_rows("crosstalk_views", {"view", "crosstalk_percent", "next_view_crosstalk_percent"});
     for (std::size_t n = 0; n < views.view.size(); ++n)
         table.add_row({views.view[n], views.all[n].percent.value, views.next[n].percent.value});

@@ -7,7 +7,9 @@
 #include "analysis/crosstalk/pixel_views.h"
 #include "base/constants.h"
 
+#include <cmath>
 #include <optional>
+#include <string>
 
 namespace lfdsim {
 
@@ -20,20 +22,23 @@ inline const char* made_for(ContentSampling sampling) {
     return sampling == ContentSampling::subpixel ? "content for each subpixel" : "content for whole pixels";
 }
 
-/// The light that a view, or an eye, should show, and the light that it should not.
-struct Leak {
-    LightPart signal, leak;
-};
-
 inline constexpr const char* left_to_rounding =
     "centres of pixels lie on the border of two lenses' elemental images: rounding decides to which lens, and so to which eye, "
     "they are assigned; lfdsim check states the remedy";
 
-/// Returns crosstalk, per cent, with its error as a figure, or with the reason why it has none.
-inline FigureValue figure_of(const Crosstalk& found) {
-    return {std::vector{found.percent.value}, std::vector{found.percent.error}, found.left_to_rounding ? left_to_rounding : ""};
+inline constexpr const char* no_light = "neither this light nor that which the eye should see reaches it";
+
+/// Returns the reason why crosstalk has no value; empty if it has one. `none`: the reason if rounding is not.
+inline std::string missing_of(const Crosstalk& found, const char* none) {
+    return found.left_to_rounding ? left_to_rounding : std::isnan(found.percent.value) ? none : "";
 }
-inline FigureValue theory_figure(const Crosstalk& c) { return {c.percent.value, c.left_to_rounding ? left_to_rounding : ""}; }
+/// Returns crosstalk, per cent, with its error as a figure, or with the reason why it has none.
+inline FigureValue figure_of(const Crosstalk& found, const char* none = no_light) {
+    return {std::vector{found.percent.value}, std::vector{found.percent.error}, missing_of(found, none)};
+}
+inline FigureValue theory_figure(const Crosstalk& found, const char* none = no_light) {
+    return {found.percent.value, missing_of(found, none)};
+}
 
 /// Returns whether many lines of sight end on a dark part of the panel, or on a dim channel: means then need more lines.
 inline bool structured(const Subject& s) { return !lights_whole_pixels(s.display().panel); }
@@ -49,7 +54,7 @@ class Eyes {
           views(s, pixels_),
           parts(job, s.threads(), most_views + 1 + places_of_curves + heads + limits, crosstalk_steps(s)),
           paths_(s.display(), s.geometry()),
-          theory_(s, distance_),
+          theory_(s.display(), s.geometry(), distance_),
           more_(paths_.more_for({0, 0, distance_})),
           lines_(lines_a_set * (structured(s) ? 2 : 1) * more_, s.display().render.seed),
           fine_(fine_lines_a_set * (structured(s) ? 4 : 1) * more_, s.display().render.seed),
@@ -90,12 +95,6 @@ class Eyes {
         found.leak.open += found.signal.open;
         return found;
     }
-    /// Returns the light of the left (0) or the right eye (1), intended for slopes below or above 0, and the other eye's as its
-    /// leak.
-    static Leak of_side(const MeantLight& light, std::size_t side) {
-        const LightPart left = light.between(-infinity, 0), right = light.between(0, infinity);
-        return side == 0 ? Leak{left, right} : Leak{right, left};
-    }
 
   private:
     double distance_;
@@ -119,10 +118,6 @@ class Eyes {
     int more_;
     LineSets lines_, fine_, anew_, of_theory_, of_theory_curve_;
 };
-
-inline Crosstalk crosstalk_of(const MeantLight& light, const Leak& found) {
-    return crosstalk_of(found.leak, found.signal, light.missed());
-}
 
 /// Adds the crosstalk between two eyes whose head moves to the sides. The panel's picture does not change: content for slopes
 /// above 0 remains intended for the right eye.

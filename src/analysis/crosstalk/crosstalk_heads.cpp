@@ -22,8 +22,7 @@ struct Heads {
     double apart;                // distance between the eyes, mm
     std::vector<double> places;  // of the heads, mm to the right of the screen's middle, ascending and symmetric
     std::vector<BothEyes> found;
-    BothEyes of_other;  // of the head in the middle, with the other sampling
-    Crosstalk theory = {}, theory_of_other = {};
+    BothEyes of_other = {}, theory = {}, theory_of_other = {};  // of the head in the middle; of_other: with the other sampling
 
     std::size_t middle() const { return places.size() / 2; }
 };
@@ -36,30 +35,15 @@ BothEyes look_with_both(const Eyes& eyes, double head, double apart) {
     BothEyes found;
     for (const std::size_t side : {0u, 1u}) {
         const MeantLight light = eyes.light(eyes.at(eye_of_head(head, side, apart)), eyes.shown);
-        found[side] = crosstalk_of(light, Eyes::of_side(light, side));
+        found[side] = crosstalk_of(light, leak_of_side(light, side));
     }
     return found;
-}
-
-/// Returns the crosstalk by theory of a head in the middle, of the light of both eyes together.
-Crosstalk theory_of_eyes(const Eyes& eyes, const std::array<MetPlaces, 2>& met, const MeantPanel& panel) {
-    Leak both;
-    const auto add = [](LightPart& sum, const LightPart& part) {
-        for (std::size_t k = 0; k < sum.light.size(); ++k) sum.light[k] += part.light[k];
-        sum.open += part.open;
-    };
-    for (const std::size_t side : {0u, 1u}) {
-        const Leak found = Eyes::of_side(eyes.theory_light(met[side], panel), side);
-        add(both.signal, found.signal);
-        add(both.leak, found.leak);
-    }
-    return crosstalk_of(both.leak, both.signal, 0);
 }
 
 /// Measures heads at 61 positions to 1.5 eye distances on either side; the one in the middle with the most lines, with both
 /// samplings, and by theory.
 Heads look_with_heads(Eyes& eyes, double apart) {
-    Heads all{apart, {}, std::vector<BothEyes>(heads), {}};
+    Heads all{apart, {}, std::vector<BothEyes>(heads)};
     for (int n = 0; n < heads; ++n) all.places.push_back(1.5 * apart * (2. * n / (heads - 1) - 1));
     eyes.parts.run(heads, [&](int part) {
         const auto n = std::size_t(part);
@@ -68,18 +52,15 @@ Heads look_with_heads(Eyes& eyes, double apart) {
             return;
         }
         for (const std::size_t side : {0u, 1u}) {
-            const MetPlaces met = eyes.at(eye_of_head(0, side, apart), Eyes::Lines::fine);
-            const auto of = [&](const MeantPanel& panel) {
-                const MeantLight light = eyes.light(met, panel);
-                return crosstalk_of(light, Eyes::of_side(light, side));
-            };
-            all.found[n][side] = of(eyes.shown);
-            if (eyes.other) all.of_other[side] = of(*eyes.other);
+            const double x = eye_of_head(0, side, apart);
+            const MetPlaces met = eyes.at(x, Eyes::Lines::fine), theory = eyes.theory_at(x, Eyes::Lines::fine);
+            const auto of = [&](const MeantLight& light) { return crosstalk_of(light, leak_of_side(light, side)); };
+            all.found[n][side] = of(eyes.light(met, eyes.shown));
+            all.theory[side] = of(eyes.theory_light(theory, eyes.shown));
+            if (!eyes.other) continue;
+            all.of_other[side] = of(eyes.light(met, *eyes.other));
+            all.theory_of_other[side] = of(eyes.theory_light(theory, *eyes.other));
         }
-        const std::array theory{eyes.theory_at(eye_of_head(0, 0, apart), Eyes::Lines::fine),
-                                eyes.theory_at(eye_of_head(0, 1, apart), Eyes::Lines::fine)};
-        all.theory = theory_of_eyes(eyes, theory, eyes.shown);
-        if (eyes.other) all.theory_of_other = theory_of_eyes(eyes, theory, *eyes.other);
     });
     return all;
 }
@@ -143,8 +124,8 @@ Interval head_range(Eyes& eyes, const Heads& all) {
 void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
     eyes.parts.run(heads + limits, [](int) {});  // progress for the work that is left out
     Json& json = result.figures["between_eyes"];
-    for (const char* name : {"left_eye_percent", "left_eye_percent_error", "right_eye_percent", "right_eye_percent_error",
-                             "theory_percent", "head_within_10_percent_mm"})
+    for (const char* name : {"left_eye_percent", "left_eye_percent_error", "left_eye_theory_percent", "right_eye_percent",
+                             "right_eye_percent_error", "right_eye_theory_percent", "theory_percent", "head_within_10_percent_mm"})
         json[name] = Json();
     const std::string why = fmt::format(
         "the viewing zone is {:.4g} mm wide at the eyes' distance, and the eyes are {:.4g} mm apart: each eye would need "
@@ -154,40 +135,35 @@ void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
     result.add_line({nan, why}, {.label = "Crosstalk between the eyes", .unit = "%"});
 }
 
-/// Adds the figures of both eyes of the head in the middle, for content as described and for the other sampling.
-void add_eyes(const Eyes& eyes, const Heads& all, ContentSampling sampling, Result& result) {
-    Json other;
-    if (eyes.other) other["sampling"] = name_of(*eyes.other_sampling);
+/// Adds the figures of both eyes of the head in the middle with content of a sampling, under a path that ends in a dot.
+void add_eyes(const BothEyes& found, const BothEyes& theory, const std::string& path, const std::string& content, Result& result) {
     for (const std::size_t side : {0u, 1u}) {
-        const std::string name = side == 0 ? "left" : "right", path = "between_eyes." + name + "_eye_percent";
-        const auto line = [&](const std::string& of, const Crosstalk& theory) {
-            return FigureLine{.label = fmt::format("Crosstalk between the eyes, {} eye, head in the middle{}", name, of),
-                              .unit = "%",
-                              .theory = theory.percent.value,
-                              .remark = "light intended for the other eye, relative to light intended for this one"};
-        };
-        const Crosstalk &middle = all.found[all.middle()][side], &of_other = all.of_other[side];
-        result.add(path, figure_of(middle), line(eyes.other ? fmt::format("; {}", made_for(sampling)) : "", all.theory));
-        if (std::isnan(middle.percent.value) && !middle.left_to_rounding) result.note(path, "no light reaches the eye");
-        if (!eyes.other) continue;
-        write_value(other, name + "_eye_percent", of_other.percent);
-        result.add_line(figure_of(of_other), line(fmt::format("; {}", made_for(*eyes.other_sampling)), all.theory_of_other));
-        if (of_other.left_to_rounding) result.note("between_eyes.other_sampling." + name + "_eye_percent", left_to_rounding);
+        const std::string name = side == 0 ? "left" : "right", eye = path + name + "_eye_";
+        result.add(eye + "percent", figure_of(found[side]),
+                   {.label = fmt::format("Crosstalk between the eyes, {} eye, head in the middle{}", name, content),
+                    .unit = "%",
+                    .theory = theory_figure(theory[side]),
+                    .theory_path = eye + "theory_percent",
+                    .remark = "light intended for the other eye, relative to light intended for this one"});
     }
-    result.add("between_eyes.theory_percent", theory_figure(all.theory));
-    if (!eyes.other) return;
-    result.figures["between_eyes"]["other_sampling"] = std::move(other);
-    result.add("between_eyes.other_sampling.theory_percent", theory_figure(all.theory_of_other));
+    result.add(path + "theory_percent", theory_figure(worse(theory)));
 }
 
 }  // namespace
 
 void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     // The viewing zone is E p'/g wide.
-    const double apart = s.options().eye_distance_mm, zone_mm = eyes.eye_mm * image_along_row_mm(s) / s.geometry().gap_mm;
+    const double apart = s.options().eye_distance_mm,
+                 zone_mm = eyes.eye_mm * image_along_row_mm(s.display(), s.geometry()) / s.geometry().gap_mm;
     if (apart > zone_mm) return tell_apart(s, eyes, zone_mm, result);
     const Heads all = look_with_heads(eyes, apart);
-    add_eyes(eyes, all, s.display().content.sampling, result);
+    add_eyes(all.found[all.middle()], all.theory, "between_eyes.",
+             eyes.other ? fmt::format("; {}", made_for(s.display().content.sampling)) : "", result);
+    if (eyes.other) {
+        result.figures["between_eyes"]["other_sampling"]["sampling"] = name_of(*eyes.other_sampling);
+        add_eyes(all.of_other, all.theory_of_other, "between_eyes.other_sampling.",
+                 fmt::format("; {}", made_for(*eyes.other_sampling)), result);
+    }
     Curves curves("crosstalk_eyes", "Crosstalk between the two eyes", "head position x, mm", "leak / signal, %",
                   {"head_mm", all.places});
     for (const std::size_t side : {0u, 1u}) {
@@ -200,7 +176,7 @@ void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     }
     const Interval range = head_range(eyes, all);
     curves.plot.marks.push_back({"10 %", tolerable_percent, false});
-    if (const double theory = all.theory.percent.value; theory <= 100)
+    if (const double theory = worse(all.theory).percent.value; theory <= 100)
         curves.plot.marks.push_back({"theory, head in the middle", theory, false});
     result.add("between_eyes.head_within_10_percent_mm", figure_of(range),
                {.label = "Head positions at which both eyes have at most 10 % crosstalk",

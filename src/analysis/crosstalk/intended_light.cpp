@@ -1,5 +1,7 @@
 #include "analysis/crosstalk/intended_light.h"
 
+#include "base/constants.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -62,6 +64,15 @@ Crosstalk crosstalk_of(const LightPart& leak, const LightPart& signal, double mi
     found.left_to_rounding = !(open <= std::max(0.5 * e.value, 1.));
     e = found.left_to_rounding ? Estimate{} : Estimate{e.value, e.error + open};
     return found;
+}
+
+Leak leak_of_side(const MeantLight& light, std::size_t side) {
+    const LightPart left = light.between(-infinity, 0), right = light.between(0, infinity);
+    return side == 0 ? Leak{left, right} : Leak{right, left};
+}
+
+Crosstalk crosstalk_of(const MeantLight& light, const Leak& found) {
+    return crosstalk_of(found.leak, found.signal, light.missed());
 }
 
 }  // namespace lfdsim

@@ -55,4 +55,13 @@ class MeantLight {
     double brightest_ = 0;
 };
 
+/// The light that a view, or an eye, should show, and the light that it should not.
+struct Leak {
+    LightPart signal, leak;
+};
+/// Returns the light of the left (0) or the right eye (1), intended for slopes below or above 0, and the other eye's as its leak.
+Leak leak_of_side(const MeantLight&, std::size_t side);
+/// Returns the crosstalk of a part of this light.
+Crosstalk crosstalk_of(const MeantLight&, const Leak&);
+
 }  // namespace lfdsim

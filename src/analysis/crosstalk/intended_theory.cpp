@@ -20,12 +20,12 @@ std::optional<optics::Vec2<double>> in_aperture(const Geometry& g, const Apertur
 
 }  // namespace
 
-MeantTheory::MeantTheory(const Subject& s, double distance_mm)
-    : subject_(s), distance_mm_(distance_mm), aperture_(aperture_shape(s.display(), s.geometry())) {}
+MeantTheory::MeantTheory(const Display& d, const Geometry& g, double distance_mm)
+    : display_(d), geometry_(g), distance_mm_(distance_mm), aperture_(aperture_shape(d, g)) {}
 
 MetPlaces MeantTheory::look(double x_mm, const LineSets& sets) const {
-    const Geometry& g = subject_.geometry();
-    const ParaxialLines lines(subject_.display(), g, {x_mm, 0, distance_mm_});
+    const Geometry& g = geometry_;
+    const ParaxialLines lines(display_, g, {x_mm, 0, distance_mm_});
     const PanelBehind panel(g);
     return {sets, 1, [&](const Choice& c, std::size_t) -> std::optional<MetPlaces::Met> {
                 // Lines are chosen by where they meet the lenses, so that none is lost between apertures, and count if the point

@@ -1,7 +1,6 @@
 // Viewers for whom the light that an eye receives is intended, by theory: thin lenses without aberration. Floor 3.
 #pragma once
 #include "analysis/core/met_places.h"
-#include "analysis/core/subject.h"
 #include "analysis/crosstalk/paraxial_lines.h"
 
 namespace lfdsim {
@@ -11,13 +10,14 @@ namespace lfdsim {
 class MeantTheory {
   public:
     /// `distance_mm`: of the eye from the panel.
-    MeantTheory(const Subject&, double distance_mm);
+    MeantTheory(const Display&, const Geometry&, double distance_mm);
 
     /// Returns the points of the panel that the lines of sight of an eye at x meet.
     MetPlaces look(double x_mm, const LineSets&) const;
 
   private:
-    const Subject& subject_;
+    const Display& display_;
+    const Geometry& geometry_;
     double distance_mm_;
     ApertureShape aperture_;
 };
