@@ -145,7 +145,7 @@ LFDSIM_RARE void meet_others(const TracedDisplay<Scalar<F>>& display, const Exte
 
     const F depth = F(misaligned.search_top - misaligned.search_bottom), r2 = F(misaligned.radius * misaligned.radius);
     const Vec2<F> m{-(ray.to.x * fall), -(ray.to.y * fall)};  // lateral displacement per mm of descent
-    const F length2 = max(m.x * m.x + m.y * m.y, F(S(1e-20)));
+    const F across_m = across(display.lattice, m.y), length2 = max(m.x * m.x + across_m * across_m, F(S(1e-20)));
     // Otherwise all lenses around each cell on the path. Lenses at the array's border may protrude from all cells.
     const Extent<S> wider{extent.low_i - 1, extent.high_i + 1, extent.low_j - 1, extent.high_j + 1};
     walk_cells(display, wider, at.x, at.y, m.x, m.y, F(0), depth, astray, [&](Cell<F> cell, Mask<F> active) {
@@ -153,8 +153,8 @@ LFDSIM_RARE void meet_others(const TracedDisplay<Scalar<F>>& display, const Exte
             // The point of the path that is nearest to the axis
             const Vec2<F> axis = axis_of(display.lattice, here);
             const F dx = axis.x - at.x, dy = across(display.lattice, axis.y - at.y);
-            const F s = min(max((dx * m.x + dy * m.y) / length2, F(0)), depth);
-            const F ex = dx - m.x * s, ey = across(display.lattice, dy - m.y * s);
+            const F s = min(max((dx * m.x + dy * across_m) / length2, F(0)), depth);
+            const F ex = dx - m.x * s, ey = dy - across_m * s;
             const Mask<F> known = (here.i == own.i) && (here.j == own.j),
                           near = active && !known && extent.holds(here) && (ex * ex + ey * ey <= r2);
             if (none(near)) return;

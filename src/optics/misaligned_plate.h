@@ -125,15 +125,15 @@ struct MovedCaps {
         cross_slab(rays.at, rays.to, F(low), F(high), in, out);
         in = max(in, F(0));
         const Extent<S> wider{extent.low_i - 1, extent.high_i + 1, extent.low_j - 1, extent.high_j + 1};
-        const F r2 = F(misaligned.radius * misaligned.radius),
-                length2 = max(rays.to.x * rays.to.x + rays.to.y * rays.to.y, F(S(1e-20)));
+        const F r2 = F(misaligned.radius * misaligned.radius), across_to = across(display.lattice, rays.to.y),
+                length2 = max(rays.to.x * rays.to.x + across_to * across_to, F(S(1e-20)));
         walk_cells(display, wider, rays.at.x, rays.at.y, rays.to.x, rays.to.y, in, out, active, [&](Cell<F> cell, Mask<F> here) {
             around(display.lattice, cell, [&](Cell<F> lens) {
                 // Only lenses whose axis is nearer than their radius to the path: s is the path length at the nearest point
                 const Vec2<F> axis = axis_of(display.lattice, lens);
                 const F dx = axis.x - rays.at.x, dy = across(display.lattice, axis.y - rays.at.y);
-                const F s = min(max((dx * rays.to.x + dy * rays.to.y) / length2, in), out);
-                const F ex = dx - rays.to.x * s, ey = across(display.lattice, dy - rays.to.y * s);
+                const F s = min(max((dx * rays.to.x + dy * across_to) / length2, in), out);
+                const F ex = dx - rays.to.x * s, ey = dy - across_to * s;
                 const Mask<F> near = here && extent.holds(lens) && (ex * ex + ey * ey <= r2);
                 if (none(near)) return;
                 // Where it crosses the lens's cap, in its aperture and beyond the slab, and the sides below the cap

@@ -125,6 +125,24 @@ TEST(Uniformity, IdealLensesPassWhatLeavesTheLayers) {
         }
 }
 
+// As much light meets the round apertures of ideal lenses that are raised or tilted a little.
+TEST(Uniformity, MisalignedIdealLensesPassAsMuchLight) {
+    Display d = wide_panel(ideal_example());
+    d.array.aperture = Aperture::circle;
+    d.lens.as<IdealLens>().aperture_radius_mm = 0.35 * d.array.pitch_mm[0];
+    const double perfect = budget(d).leaves;
+    Errors bowed, high, tilted, wedged, curved;
+    bowed.bow_mm = 0.3;
+    high.height_sd_mm = 0.1;
+    tilted.tilt_sd_deg = 1;
+    wedged.wedge_deg = {0.3, 0.5};
+    curved.curvature_sd = 0.05;
+    for (const Errors& errors : {bowed, high, tilted, wedged, curved}) {
+        d.errors = errors;
+        EXPECT_NEAR(budget(d).leaves / perfect, 1, 0.01) << errors.bow_mm << errors.tilt_sd_deg << errors.wedge_deg[1];
+    }
+}
+
 // All that reaches square ideal lenses passes them, of whatever power; where they have none, what leaves within the field of view
 // is the form factor of the square of those slopes.
 TEST(Uniformity, IdealLensesLetAllLightPass) {

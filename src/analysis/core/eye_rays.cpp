@@ -13,12 +13,26 @@
 namespace lfdsim {
 namespace {
 
-/// Traces a ray to the panel; the point is relative to where the base lens's axis meets it. `raised`: the base lens's height over
-/// its lattice position, mm.
-optics::PanelPoint<double> trace(const optics::TracedDisplay<double>& scene, const optics::Extent<double>& extent,
-                                 const optics::Ray<double>& ray, double raised) {
-    const optics::PanelBase<double> base{0, 0, 0, 0, raised};
-    return optics::trace_any<double>(scene, extent, base, ray, true);
+/// Returns the cosine between a ray and the axis of the ideal lens in `cell`, which it passes, below the lens over that above it.
+/// The ray is one for trace_any().
+double cosines(const optics::TracedDisplay<double>& scene, const optics::Extent<double>& extent,
+               const optics::PanelBase<double>& base, const optics::Ray<double>& ray, optics::Cell<double> cell) {
+    optics::Passage<double> passage{ray, cell, 1, true};
+    optics::to_first_vertex(scene, passage);
+    // The ray in the lens's frame: its direction, and where it meets the lens
+    optics::Vec3<double> q = passage.ray.at, to = passage.ray.to;
+    double power = scene.ideal_power;
+    if (scene.misaligned.given) {
+        const optics::Ray<double> in_array = optics::in_array(scene, base, passage.ray);
+        const auto met = optics::meet_misaligned<optics::Facts{}>(scene, extent, in_array, 1 / in_array.to.z, cell);
+        q = met.entering.at, to = met.entering.to;
+        power *= met.pose.curvature;
+    } else {
+        const auto axis = optics::axis_of(scene.lattice, cell);
+        q.x -= axis.x, q.y -= axis.y;
+    }
+    const double x = to.x / to.z + power * q.x, y = to.y / to.z + power * optics::across(scene.lattice, q.y);
+    return -1 / (to.z * std::sqrt(1 + x * x + y * y));
 }
 
 /// Returns whether a line in a glass surround meets a lens, and its cell. In `clear` all glass is lenses; in `plate` a lens is
@@ -151,7 +165,9 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         const auto [x, y] = come_down_to(scene_.stop_z);
         if (!optics::passes_stop(scene_, extent, x, y)) return {};
     }
-    const optics::PanelPoint<double> end = trace(scene_, extent, ray, raised);
+    const optics::PanelBase<double> on_panel{0, 0, 0, 0,
+                                             raised};  // the end is relative to where the base lens's axis meets the panel
+    const optics::PanelPoint<double> end = optics::trace_any<double>(scene_, extent, on_panel, ray, true);
     if (!end.alive || !(end.weight > 0)) return {};
 
     // The end on the panel, in mm from its centre; rows count downwards.
@@ -168,7 +184,14 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         by_lens = first_lens(scene_, extent, {{ray.at.x, ray.at.y, start_z_}, {to_x, to_y, ray.to.z}}, cell);
     }
     const Place from_base = optics::axis_of(lattice, cell);
-    return {true, beside ? 0 : end.weight, true, by_lens, x, y, point(base_axis.x + from_base.x, base_axis.y + from_base.y)};
+    return {true,
+            beside ? 0 : end.weight,
+            true,
+            by_lens,
+            x,
+            y,
+            point(base_axis.x + from_base.x, base_axis.y + from_base.y),
+            scene_.ideal ? cosines(scene_, extent, on_panel, ray, cell) : 1};
 }
 
 double checked_viewing_distance_mm(const Subject& s) {

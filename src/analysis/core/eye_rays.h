@@ -29,6 +29,7 @@ struct Sight {
     bool by_lens = false;   // it meets a lens on its way; in `clear` and `plate` others pass between the caps
     double x = 0, y = 0;    // end in the panel's plane, mm from its centre, display frame
     Vec3d lens{};           // where the axis of the cell that it passes meets the vertex plane, mm, display frame
+    double cosines = 1;     // with ideal lenses: the cosine to the lens's axis below the lens over that above it
     bool operator==(const Sight&) const = default;
 };
 

@@ -20,18 +20,12 @@ struct Found {
     double reaches = 0, leaves = 0, leaves_in_fov = 0;
 };
 
-/// Returns the ratio of a line's flux to the radiance that it shows, for ideal lenses: (cos below/cos above)^4. Real lenses
-/// conserve radiance and etendue, and so a bundle's flux. The ideal lens conserves a bundle's extent in slopes, which is that in
-/// directions over cos^4. The line comes down to `at` in the lens's plane along `to`; below it the slope dx/dz is larger by q/f,
-/// q its position in the lens.
-double flux_per_radiance(const Geometry& g, const Vec3d& at, const Vec3d& to, const Sight& sight) {
-    const Lattice<double>& l = g.lattice;
-    const double power = std::isfinite(g.focal_length_mm) ? 1 / g.focal_length_mm : 0;
-    const auto above = optics::to_array(l, to[0] / to[2], to[1] / to[2]);
-    const auto q = optics::to_array(l, at[0] - sight.lens[0], at[1] - sight.lens[1]);
-    const double x = above.x + power * q.x, y = above.y + (l.strips ? 0 : power * q.y);
-    const double ratio = 1 / ((1 + x * x + y * y) * to[2] * to[2]);  // cos^2 below over cos^2 above
-    return ratio * ratio;
+/// Returns the ratio of a line's flux to the radiance that it shows: for ideal lenses (cos below/cos above)^4, with the angles to
+/// the lens's axis. Real lenses conserve radiance and etendue, and so a bundle's flux. The ideal lens conserves a bundle's extent
+/// in slopes, which is that in directions over cos^4.
+double flux_per_radiance(const Sight& sight) {
+    const double squared = sight.cosines * sight.cosines;
+    return squared * squared;
 }
 
 /// Indices of the medium into which the panel emits, and of the one just below the lenses' lowest point.
@@ -76,7 +70,6 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
                  fov_slope[] = {display.array.pitch_mm[0] / (2 * geometry.gap_mm),
                                 is_strips(display.array) ? infinity : display.array.pitch_mm[1] / (2 * geometry.gap_mm)};
     const double c = geometry.lattice.cos_turn, s = geometry.lattice.sin_turn;
-    const bool ideal = display.lens.is_thin();
     const int rays = budget_rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});
     std::array<Found, light_budget_parts> sums{};
     parts.run(light_budget_parts, [&](int part) {
@@ -92,7 +85,7 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
             const Vec3d at = lenses.point((0.5 * width + margin) * choice[0], (0.5 * height + margin) * choice[1]);
             // Light that leaves the lenses there
             const Sight sight = lenses.look_along(at, to, 0, 0);
-            const double light = sight.light * (ideal ? flux_per_radiance(geometry, at, to, sight) : 1);
+            const double light = sight.light * flux_per_radiance(sight);
             sum.leaves += light;
             const double along = c * to[0] + s * to[1], across = c * to[1] - s * to[0];
             if (std::abs(along) <= -to[2] * fov_slope[0] && std::abs(across) <= -to[2] * fov_slope[1]) sum.leaves_in_fov += light;
