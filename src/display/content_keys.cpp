@@ -61,9 +61,10 @@ constexpr Key<SceneObject> object_keys[] = {
     {"model", &SceneObject::model, no_range, false,
      "Mesh file, relative to the description's folder, or built-in:spheres. Each object has this or image."},
     {"image", &SceneObject::image, no_range, false,
-     "Picture file (PNG, JPEG, BMP, TGA, GIF), relative to the same folder, on a rectangle that faces the viewer unless it is "
-     "rotated. It is not lit; it is visible from both sides, mirrored from behind, and transparent where its alpha channel says "
-     "so."},
+     "Picture file (PNG, JPEG, BMP, TGA, GIF), in sRGB and upright by its Exif data, relative to the same folder, on a rectangle "
+     "that "
+     "faces the viewer unless it is rotated. It is not lit; it is visible from both sides, mirrored from behind, and transparent "
+     "where its alpha channel says so."},
     {"position_mm", &SceneObject::position_mm, any_length, false,
      "Position of the centre of the image, or of the rotated model's bounding box: x and y from the panel's centre, z from the "
      "array's viewer-side vertex plane, towards the viewer."},

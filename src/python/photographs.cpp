@@ -46,10 +46,9 @@ Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& co
     const Encoding encoding = linear ? Encoding::linear : Encoding::srgb;
     Overlay made;
     run(nb::none(), [&](Job& job) {
-        made =
-            lay_over(image_of(view, Encoding::srgb, "view"), view_corners,
-                     {image_of(photo, encoding, "photograph"), !std::holds_alternative<Pixels<float>>(photo), encoding, 1, corners},
-                     options, job);
+        made = lay_over(image_of(view, Encoding::srgb, "view"), view_corners,
+                        {image_of(photo, encoding, "photograph"), !std::holds_alternative<Pixels<float>>(photo), encoding, corners},
+                        options, job);
     });
     return made;
 }

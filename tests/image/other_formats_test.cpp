@@ -3,11 +3,13 @@
 #include "image/compare/above_white.h"
 #include "image/formats/encoding.h"
 #include "image/formats/jpeg_memory.h"
+#include "image/formats/upright.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include <jpeglib.h>
 
@@ -203,7 +205,8 @@ int orientation_of(const test::TemporaryFolder& folder, const std::string& marke
     const std::string head{char(0xff), char(0xe1), char(length >> 8), char(length & 0xff)};
     const std::string whole = test::load(folder / "a.jpg");
     test::save(folder / "a.jpg", whole.substr(0, 2) + head + marker + whole.substr(2));
-    return read_orientation(folder / "a.jpg");
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen((folder / "a.jpg").c_str(), "rb"), std::fclose);
+    return read_orientation(file.get());
 }
 
 TEST(Jpeg, TellsHowTheCameraWasHeld) {

@@ -260,7 +260,7 @@ TEST(LayOver, EndsWhereTheJobIsCancelled) {
     blur(light.rgb, 320, 200, 3, 5);
     EXPECT_LT(match(view, as_seen(light), true, none, 0, Stopped()).blur_px, 1);
     EXPECT_EQ(align(view, all, 320, 200, all, none, {}, Stopped()).light.rgb, Image(320, 200).rgb);
-    EXPECT_EQ(lay_over(view, all, {light, true, Encoding::srgb, 1, clicked}, {true, true}, Stopped()).match.simulated.width, 0);
+    EXPECT_EQ(lay_over(view, all, {light, true, Encoding::srgb, clicked}, {true, true}, Stopped()).match.simulated.width, 0);
 }
 
 // A view in two colours still tells the exposure, as does a region that is no rectangle.

@@ -90,13 +90,10 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
         check_near("--view-corners", view_corners, view_path, view.width, view.height, 100);
     });
     faults.of([&] {
-        photo.orientation = read_orientation(photo_path);
         photo.image = read_image(photo_path, photo.encoding);
         warn_above_white(photo_path, photo.image);
         photo.codes = holds_codes(photo_path);
-        const bool turned = photo.orientation >= 5;  // EXIF: width and height are exchanged
-        const auto [width, height] = std::pair(photo.image.width, photo.image.height);
-        check_near("--corners", photo.corners, photo_path, turned ? height : width, turned ? width : height, 0.5);
+        check_near("--corners", photo.corners, photo_path, photo.image.width, photo.image.height, 0.5);
     });
     std::optional<Rect> part;
     faults.of([&] {

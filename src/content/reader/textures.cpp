@@ -1,11 +1,13 @@
 #include "content/reader/textures.h"
 
 #include "content/reader/limits/limits.h"
+#include "image/formats/upright.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -79,12 +81,27 @@ bool decode(const std::filesystem::path& file, Texture& out) {
     return pixels;
 }
 
+// Returns a picture as viewers show it; `file` is the one that it was decoded from.
+Texture upright(Texture stored, const std::filesystem::path& file) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), std::fclose);
+    const int orientation = stream ? read_orientation(stream.get()) : 1;
+    if (orientation == 1) return stored;
+    const Upright places(orientation, stored.width, stored.height);
+    constexpr std::size_t texel = 4;
+    Texture shown{std::int32_t(places.columns), std::int32_t(places.rows), std::vector<std::uint8_t>(stored.rgba.size())};
+    const std::uint8_t* from = stored.rgba.data();
+    for (std::int64_t r = 0; r < stored.height; ++r)
+        for (std::int64_t i = 0; i < stored.width; ++i, from += texel)
+            std::copy_n(from, texel, &shown.rgba[texel * std::size_t(places.row(r) + i * places.pixel_step)]);
+    return shown;
+}
+
 }  // namespace
 
 Texture read_texture(const std::filesystem::path& file) {
     Texture texture;
     if (!decode(file, texture)) throw std::runtime_error(failure());
-    return texture;
+    return upright(std::move(texture), file);
 }
 
 bool has_alpha(const Texture& t) {

@@ -11,7 +11,8 @@
 
 namespace lfdsim::reader {
 
-/// Returns a picture file's texels. Throws std::runtime_error, which says why it cannot be decoded.
+/// Returns a picture file's texels, upright if the camera was turned (image/formats/upright.h). Throws std::runtime_error, which
+/// says why it cannot be decoded.
 Texture read_texture(const std::filesystem::path&);
 
 /// Returns whether any texel is not opaque.

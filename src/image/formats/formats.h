@@ -22,7 +22,8 @@ struct Pixels {
     int stride;  // 3 in an Image, 4 in Texels
     Job* job;
 
-    float* row(std::int64_t r) const { return data + r * columns * stride; }
+    float* row(std::int64_t r) const { return at(r * columns); }
+    float* at(std::int64_t index) const { return data + index * stride; }
 };
 
 /// The function by which a reader gets its memory: called once, when the size is known and InputFile::check_size() has passed it.
@@ -43,16 +44,15 @@ void read_pfm(const InputFile&, const Allocate&);
 // These read the header alone, and throw like the readers.
 Metadata read_png_metadata(const InputFile&);
 Metadata read_exr_metadata(const InputFile&);
-int read_jpeg_orientation(const InputFile&);
 
 // All writers throw std::runtime_error when writing fails, and report each finished row to the job.
 void write_png(Output&, const Image&, const WriteOptions&, Job&);
 void write_exr(Output&, const Image&, const WriteOptions&, Job&);
 void write_npy(Output&, const Image&, Job&);
 
-/// Decodes the codes of one row, `channels` a pixel of which the first three are R, G, B, to light.
+/// Decodes the codes of one row, `channels` a pixel of which the first three are R, G, B, to light, a pixel every `stride` floats.
 template <class Code>
-void decode_row(const Code* codes, const std::vector<float>& table, std::int64_t columns, int stride, float* light,
+void decode_row(const Code* codes, const std::vector<float>& table, std::int64_t columns, std::int64_t stride, float* light,
                 int channels = 3) {
     for (std::int64_t i = 0; i < columns; ++i)
         for (int c = 0; c < 3; ++c) light[i * stride + c] = table[codes[i * channels + c]];

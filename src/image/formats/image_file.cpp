@@ -233,12 +233,6 @@ bool holds_codes(const fs::path& path) {
     return format == Format::png || format == Format::jpeg;
 }
 
-int read_orientation(const fs::path& path) {
-    const Format format = format_to_read(path);
-    const InputFile file(path);
-    return within_memory(file, [&] { return format == Format::jpeg ? read_jpeg_orientation(file) : 1; });
-}
-
 Texels read_panel_image(const fs::path& path, Encoding encoding, std::int64_t columns, std::int64_t rows, Job* caller) {
     const Format format = format_to_read(path);
     const InputFile file(path);

@@ -57,8 +57,9 @@ void write_npy(const std::filesystem::path& path, std::span<const std::int64_t> 
 std::string image_bytes(const std::string& ending, const Image&, const WriteOptions& = {}, Job* = nullptr);
 
 /// Reads a picture as linear light. `encoding` is that of code values: PNG, JPEG, and NPY of uint8 and uint16; EXR, PFM and other
-/// NPY are linear, and their values must be finite. An alpha channel must be full everywhere. Layers are ignored. Throws
-/// InputError, which names the file and the fault: missing, truncated, not an image, too large.
+/// NPY are linear, and their values must be finite. A picture of a camera that was turned (upright.h) is returned upright, as
+/// viewers show it. An alpha channel must be full everywhere. Layers are ignored. Throws InputError, which names the file and the
+/// fault: missing, truncated, not an image, too large.
 Image read_image(const std::filesystem::path& path, Encoding encoding);
 
 /// Reads a panel image directly into texels, row by row. Throws InputError like read_image(), also for negative light and, with
@@ -73,11 +74,6 @@ Metadata read_metadata(const std::filesystem::path& path);
 /// Whether a file has code values, which are limited by white; .exr, .pfm and .npy of floats have light without a limit. Throws
 /// InputError for an unknown extension, and of .npy for an unreadable header.
 bool holds_codes(const std::filesystem::path& path);
-
-/// Returns how a camera was held, by a JPEG's Exif data (CIPA DC-008, tag Orientation): from 1, upright, to 8; 1 where there is no
-/// such tag. read_image() returns the picture as it is stored; viewers rotate it. Only the file's header is read. Throws like
-/// read_image().
-int read_orientation(const std::filesystem::path& path);
 
 /// Reads a layer of an EXR file, whose values must be finite; returns nothing where the file has no such layer or is of another
 /// format. Throws like read_image().

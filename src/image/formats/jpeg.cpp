@@ -1,9 +1,8 @@
 #include "image/formats/encoding.h"
 #include "image/formats/formats.h"
+#include "image/formats/upright.h"
 
 #include <fmt/format.h>
-#include <cstring>
-#include <span>
 #include <vector>
 
 #include <jpeglib.h>  // wants cstdio before it
@@ -43,7 +42,7 @@ struct JpegReader {
     jpeg_decompress_struct jpeg{};
     Hooks hooks{};
 
-    explicit JpegReader(const InputFile& file, bool with_exif = false) {
+    explicit JpegReader(const InputFile& file) {
         jpeg.err = jpeg_std_error(&hooks.error);
         hooks.error.error_exit = on_error;
         hooks.error.emit_message = on_message;
@@ -53,46 +52,16 @@ struct JpegReader {
         jpeg_create_decompress(&jpeg);
         jpeg.progress = &hooks.progress;
         jpeg_stdio_src(&jpeg, file.stream());
-        if (with_exif) jpeg_save_markers(&jpeg, JPEG_APP0 + 1, 0xffff);
     }
     ~JpegReader() { jpeg_destroy_decompress(&jpeg); }
     JpegReader(const JpegReader&) = delete;
     JpegReader& operator=(const JpegReader&) = delete;
 };
 
-/// Returns tag 0x0112 of an APP1 marker "Exif" (CIPA DC-008: the first directory of a TIFF file); 0 if there is none.
-int exif_orientation(std::span<const unsigned char> marker) {
-    constexpr char name[] = "Exif\0";  // with the literal's end two zero bytes
-    if (marker.size() < sizeof name + 8 || std::memcmp(marker.data(), name, sizeof name) != 0) return 0;
-    const std::span<const unsigned char> tiff = marker.subspan(sizeof name);
-    const bool little = tiff[0] == 'I';  // "II" or "MM": the order of a number's bytes
-    const auto number = [&](std::size_t at, std::size_t bytes) {
-        std::size_t value = 0;
-        for (std::size_t k = 0; k < bytes; ++k) value = value << 8 | tiff[little ? at + bytes - 1 - k : at + k];
-        return value;
-    };
-    const std::size_t directory = number(4, 4);
-    if (directory > tiff.size() - 2) return 0;
-    for (std::size_t k = 0; k < number(directory, 2); ++k) {
-        const std::size_t entry = directory + 2 + 12 * k;
-        if (entry + 12 > tiff.size()) return 0;
-        if (number(entry, 2) == 0x0112) return int(number(entry + 8, 2));
-    }
-    return 0;
-}
-
 }  // namespace
 
-int read_jpeg_orientation(const InputFile& file) {
-    JpegReader reader(file, true);
-    jpeg_read_header(&reader.jpeg, TRUE);
-    for (const jpeg_marker_struct* marker = reader.jpeg.marker_list; marker; marker = marker->next)
-        if (const int orientation = exif_orientation({marker->data, marker->data_length}); orientation >= 1 && orientation <= 8)
-            return orientation;
-    return 1;
-}
-
 void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocate) {
+    const int orientation = read_orientation(file.stream());  // before libjpeg begins to read
     JpegReader reader(file);
     jpeg_decompress_struct& jpeg = reader.jpeg;
     jpeg_read_header(&jpeg, TRUE);
@@ -102,17 +71,18 @@ void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocat
         file.refuse(fmt::format("has {} colour components; gray or RGB is needed", jpeg.num_components));
     jpeg.out_color_space = JCS_RGB;
     // allocate() checks the memory before libjpeg takes some: a progressive picture takes memory for all its coefficients.
-    const Pixels pixels = allocate(jpeg.image_width, jpeg.image_height);
+    const Upright upright(orientation, jpeg.image_width, jpeg.image_height);
+    const Pixels pixels = allocate(upright.columns, upright.rows);
     jpeg_start_decompress(&jpeg);
 
     const std::vector<float>& table = decode_table(encoding, 8);
-    std::vector<JSAMPLE> codes(std::size_t(pixels.columns) * 3);
+    std::vector<JSAMPLE> codes(std::size_t(jpeg.image_width) * 3);
     while (jpeg.output_scanline < jpeg.output_height) {
         const std::int64_t r = jpeg.output_scanline;
         JSAMPROW row = codes.data();
         jpeg_read_scanlines(&jpeg, &row, 1);
-        decode_row(codes.data(), table, pixels.columns, pixels.stride, pixels.row(r));
-        pixels.job->advance(1);
+        decode_row(codes.data(), table, jpeg.image_width, upright.pixel_step * pixels.stride, pixels.at(upright.row(r)));
+        pixels.job->advance(upright.progress(r + 1) - upright.progress(r));
     }
     jpeg_finish_decompress(&jpeg);
 }

@@ -2,6 +2,7 @@
 #include "image/formats/encoding.h"
 #include "image/formats/first_failure.h"
 #include "image/formats/formats.h"
+#include "image/formats/upright.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -74,20 +75,20 @@ struct Band {
 };
 
 /// Reads all rows in bands. One thread inflates; others convert codes to light, which takes as long again, mostly for the first
-/// touch of the memory. Returns the index, row by row, of the first pixel whose alpha is not full, or -1.
+/// touch of the memory. Returns the index, row by row, of the first stored pixel whose alpha is not full, or -1.
 template <class Code>
-std::int64_t read_rows(const PngReader& reader, int passes, std::int64_t rows, const std::vector<float>& table,
+std::int64_t read_rows(const PngReader& reader, int passes, const Upright& upright, const std::vector<float>& table,
                        const Pixels& pixels) {
     constexpr std::int64_t band_codes = 1 << 18;  // codes of a band, which fit into the cache of one core
     constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
     const int channels = png_get_channels(reader.png, reader.info);  // 3, or 4 with alpha
-    const std::int64_t row_codes = pixels.columns * channels;
+    const std::int64_t columns = upright.stored_columns, rows = upright.stored_rows, row_codes = columns * channels;
     std::atomic<std::int64_t> clear{none};  // the least index so far of a pixel whose alpha is not full
     const auto check_alpha = [&](const Code* codes, std::int64_t row) {
-        for (std::int64_t i = 0; i < pixels.columns; ++i)
+        for (std::int64_t i = 0; i < columns; ++i)
             if (codes[i * channels + 3] != std::numeric_limits<Code>::max()) {
                 std::int64_t first = clear;
-                while (row * pixels.columns + i < first && !clear.compare_exchange_weak(first, row * pixels.columns + i)) {
+                while (row * columns + i < first && !clear.compare_exchange_weak(first, row * columns + i)) {
                 }
                 return;
             }
@@ -112,9 +113,9 @@ std::int64_t read_rows(const PngReader& reader, int passes, std::int64_t rows, c
         for (std::int64_t r = 0; r < band.rows; ++r) {
             const Code* const codes = &band.codes[std::size_t(r * row_codes)];
             if (channels == 4) check_alpha(codes, band.first + r);
-            decode_row(codes, table, pixels.columns, pixels.stride, pixels.row(band.first + r), channels);
+            decode_row(codes, table, columns, upright.pixel_step * pixels.stride, pixels.at(upright.row(band.first + r)), channels);
         }
-        pixels.job->advance(band.rows);
+        pixels.job->advance(upright.progress(band.first + band.rows) - upright.progress(band.first));
     };
     tbb::parallel_pipeline(std::size_t(2 * tbb::this_task_arena::max_concurrency()),
                            tbb::make_filter<void, Band<Code>>(tbb::filter_mode::serial_in_order, inflate) &
@@ -141,6 +142,7 @@ Metadata read_png_metadata(const InputFile& file) {
 }
 
 void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate) {
+    const int orientation = read_orientation(file.stream());
     check_signature(file);
     check_chunks(file);
     const PngReader reader(file);
@@ -161,12 +163,16 @@ void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate
     const int passes = png_set_interlace_handling(reader.png);
     png_read_update_info(reader.png, reader.info);
 
-    const Pixels pixels = allocate(columns, rows);
+    const Upright upright(orientation, columns, rows);
+    const Pixels pixels = allocate(upright.columns, upright.rows);
     const int bits = depth == 16 ? 16 : 8;
     const std::vector<float>& table = decode_table(encoding, bits);
-    const std::int64_t clear = bits == 16 ? read_rows<std::uint16_t>(reader, passes, rows, table, pixels)
-                                          : read_rows<std::uint8_t>(reader, passes, rows, table, pixels);
-    if (clear >= 0) refuse_transparency(file, clear % columns, clear / columns);
+    const std::int64_t clear = bits == 16 ? read_rows<std::uint16_t>(reader, passes, upright, table, pixels)
+                                          : read_rows<std::uint8_t>(reader, passes, upright, table, pixels);
+    if (clear >= 0) {
+        const std::int64_t shown = upright.row(clear / columns) + clear % columns * upright.pixel_step;
+        refuse_transparency(file, shown % upright.columns, shown / upright.columns);
+    }
     png_read_end(reader.png, nullptr);
 }
 

@@ -59,11 +59,10 @@ void check_near(const std::string& where, const Corners&, const std::string& pic
 
 /// A photograph of a screen.
 struct ScreenPhoto {
-    Image image;                         // as it is stored
+    Image image;
     bool codes = true;                   // its values were codes, limited by white; false: light without a limit
     Encoding encoding = Encoding::srgb;  // of these codes
-    int orientation = 1;                 // see read_orientation()
-    Corners corners{};                   // of the screen, in pixels of the picture as viewers show it
+    Corners corners{};                   // of the screen, in the picture's pixels
 };
 
 struct OverlayOptions {
@@ -73,7 +72,7 @@ struct OverlayOptions {
 };
 
 struct Overlay {
-    Corners corners;  // in the photograph as viewers show it, fitted or as they were
+    Corners corners;  // in the photograph, fitted or as they were
     Region screen;
     Match match;
 };
