@@ -87,6 +87,15 @@ TEST(Exr, RefusesDamagedLayers) {
     EXPECT_NO_THROW(read_image(folder / "x.exr", Encoding::srgb));
 }
 
+// The file is as small as its one channel, and intact.
+TEST(Exr, GreyIsRefusedForItsChannel) {
+    const test::TemporaryFolder folder;
+    const Box2i box(V2i(0, 0), V2i(191, 107));
+    save_exr<float>(folder / "y.exr", box, box, Imf::FLOAT, {"Y"}, Imf::NO_COMPRESSION);
+    const std::string message = test::input_error([&] { read_image(folder / "y.exr", Encoding::srgb); });
+    EXPECT_NE(message.find("has no channel R; R, G, B are needed"), std::string::npos) << message;
+}
+
 TEST(Exr, OtherFormatsRefuseLayers) {
     const test::TemporaryFolder folder;
     WriteOptions options;

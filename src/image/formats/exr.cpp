@@ -88,9 +88,18 @@ double most_packed(Imf::Compression compression) {
     }
 }
 
+/// Returns the bytes that a pixel takes unpacked in all of a file's channels.
+double pixel_bytes(const Imf::ChannelList& channels) {
+    double bytes = 0;
+    for (auto c = channels.begin(); c != channels.end(); ++c)
+        bytes +=
+            (c.channel().type == Imf::HALF ? 2. : 4.) / std::max(1, c.channel().xSampling) / std::max(1, c.channel().ySampling);
+    return bytes;
+}
+
 /// Refuses windows that are out of proportion to the file.
-void check_windows(const InputFile& file, const PixelWindow& data, const PixelWindow& display, Imf::Compression compression) {
-    file.check_size(data.columns, data.rows, most_packed(compression) / 6);  // three half floats are 6 bytes
+void check_windows(const InputFile& file, const PixelWindow& data, const PixelWindow& display, const Imf::Header& header) {
+    file.check_size(data.columns, data.rows, most_packed(header.compression()) / pixel_bytes(header.channels()));
     // Parts of the frame without data are black and take no bytes, so a small file may claim a large frame:
     // up to 2^25 pixels (7680 x 4320 are fewer) or 64 times the data.
     const double frame = double(display.columns) * double(display.rows);
@@ -270,10 +279,8 @@ void check_blocks(const InputFile& file, const Imf::Header& header, const PixelW
         blocks = std::ceil(double(columns) / tile.xSize) * std::ceil(double(data.rows) / tile.ySize);
         rows = tile.ySize;
     }
-    double pixel = 0;
-    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) pixel += c.channel().type == Imf::HALF ? 2 : 4;
     if (blocks * 8 > double(file.size()) ||
-        double(columns) * double(rows) * pixel > std::max(usual, 1032. * 64 * double(file.size())))
+        double(columns) * double(rows) * pixel_bytes(header.channels()) > std::max(usual, 1032. * 64 * double(file.size())))
         file.refuse(fmt::format("is damaged: it claims {} x {} pixels, more than its {} bytes can hold", data.columns, data.rows,
                                 file.size()));
 }
@@ -289,7 +296,7 @@ Imf::Header checked_header(const InputFile& file) {
     Imf::Header header;
     header.readFrom(stream, version);
     const PixelWindow data(header.dataWindow());
-    check_windows(file, data, PixelWindow(header.displayWindow()), header.compression());
+    check_windows(file, data, PixelWindow(header.displayWindow()), header);
     check_blocks(file, header, data);
     return header;
 }
