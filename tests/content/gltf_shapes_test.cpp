@@ -236,6 +236,9 @@ TEST(Gltf, LiesAreFound) {
     EXPECT_THAT(changed(R"("count":4)", R"("count":5)"), testing::HasSubstr("accessors[0]"));
     EXPECT_THAT(changed(R"("count":4)", R"("count":4000000000)"), testing::HasSubstr("accessors[0]"));
     EXPECT_THAT(changed(R"("componentType":5126)", R"("componentType":5130)"), testing::HasSubstr("not a type"));
+    EXPECT_THAT(changed(R"("byteOffset":0,"byteLength":48)", R"("byteOffset":0,"byteLength":48,"byteStride":8)"),
+                testing::HasSubstr("bufferViews[0].byteStride is 8, but elements of accessors[0] have 12 bytes"));
+    EXPECT_THAT(changed(R"("componentType":5123)", R"("componentType":5126)"), testing::HasSubstr("indices are unsigned integers"));
     EXPECT_THAT(changed(R"("mesh":0)", R"("mesh":7)"), testing::HasSubstr("there are only 1 meshes"));
     EXPECT_THAT(changed(R"("mesh":0)", R"("mesh":0,"children":[0])"), testing::HasSubstr("descendant of itself"));
     EXPECT_THAT(changed(R"([{"mesh":0}])", R"([{"children":[2]},{"children":[2]},{"mesh":0}])"),
@@ -243,11 +246,17 @@ TEST(Gltf, LiesAreFound) {
     EXPECT_THAT(changed(R"("uri":"t.bin")", R"("uri":"../t.bin2")"), testing::HasSubstr("not in the model's folder"));
     EXPECT_THAT(changed(R"("uri":"t.bin",)", ""), testing::HasSubstr("has no bytes"));
     EXPECT_THAT(changed(R"({"asset":)", R"({{"asset":)"), testing::HasSubstr("JSON is damaged at line 1"));
-    EXPECT_THAT(refused(folder.write("bad.glb", std::string("glTF\2\0\0\0\xff\0\0\0\xff\0\0\0JSON{}", 22))),
-                testing::HasSubstr("cut short"));
-    std::string deep;  // deeper than any stack
-    for (int k = 0; k < 200000; ++k) deep += "[";
-    EXPECT_THAT(refused(folder.write("deep.gltf", R"({"asset":)" + deep)), testing::HasSubstr("JSON is damaged"));
+    const auto binary = [&](const std::string& header) { return refused(folder.write("bad.glb", header + "JSON{} ")); };
+    EXPECT_THAT(binary(std::string("glTF\2\0\0\0\x17\0\0\0\xff\0\0\0", 16)), testing::HasSubstr("cut short"));
+    EXPECT_THAT(binary(std::string("glTF\2\0\0\0\x14\0\0\0\3\0\0\0", 16)),
+                testing::HasSubstr("a length of 20 bytes, but it has 23"));
+    EXPECT_THAT(binary(std::string("glTF\x09\0\0\0\x17\0\0\0\3\0\0\0", 16)), testing::HasSubstr("states version 9"));
+    const std::string deep(1000000, '['), closed = deep + std::string(1000000, ']');  // deeper than any stack
+    for (const std::string& bytes : {R"({"asset":)" + deep, closed, R"({"asset":{"version":"1.0"},"x":)" + closed + "}"})
+        EXPECT_THAT(refused(folder.write("deep.gltf", bytes)), testing::HasSubstr("nested more than 1000 levels deep"));
+    const std::string brackets =
+        R"({"asset":{"version":"2.0","copyright":"\"[)" + deep + R"("},)" + text.substr(text.find("\"scene\""));
+    EXPECT_EQ(info(*load_model(folder.write("texts.gltf", brackets))).triangles, 2);
 }
 
 }  // namespace

@@ -98,11 +98,20 @@ struct Chunks {
     std::string_view description, binary;
 };
 
-// A binary file has a header of 12 bytes, then chunks, each with its length and kind before it; the first is the description.
+// A binary file has a header of 12 bytes ("glTF", version, length of the file), then chunks, each with its length and kind before
+// it; the first is the description.
 Chunks chunks_of(std::string_view file) {
     if (!file.starts_with("glTF")) return {file, {}};
-    Chunks found;
     std::size_t at = 12;
+    if (file.size() < at) throw std::runtime_error("the file ends before its data do: it is cut short");
+    const auto version = value_at<std::uint32_t>(&file[4]), stated = value_at<std::uint32_t>(&file[8]);
+    if (version != 2)
+        throw std::runtime_error("its header states version " + std::to_string(version) +
+                                 " of binary glTF, which is not read; export it as glTF 2.0");
+    if (stated != file.size())
+        throw std::runtime_error("its header states a length of " + std::to_string(stated) + " bytes, but it has " +
+                                 std::to_string(file.size()) + ": it is damaged or cut short");
+    Chunks found;
     while (at + 8 <= file.size()) {
         const auto length = value_at<std::uint32_t>(&file[at]), kind = value_at<std::uint32_t>(&file[at + 4]);
         at += 8;
@@ -228,8 +237,12 @@ AccessorValues GltfFile::numbers(const Item& accessor) {
     std::string_view bytes;
     if (from) {
         bytes = view(*from);
-        at.stride = from->at("byteStride").whole(at.component_bytes * at.width);
-        if (at.stride < 1 || at.stride > 65535) from->at("byteStride").fail("is out of range");
+        const std::size_t element = at.component_bytes * at.width;
+        at.stride = from->at("byteStride").whole(element);
+        if (at.stride < element || at.stride > 65535)
+            from->at("byteStride")
+                .fail("is " + std::to_string(at.stride) + ", but elements of " + accessor.where() + " have " +
+                      std::to_string(element) + " bytes");
     }
     if (from && at.count > 0 && at.count - 1 > bytes.size() / at.stride) accessor.fail("has more elements than bytes");
     AccessorValues out{at.width, at.count, std::vector<double>(at.width * at.count)};
@@ -237,6 +250,13 @@ AccessorValues GltfFile::numbers(const Item& accessor) {
     if (sparse.is_there()) replace(out, at, sparse);
     out.normalize(accessor);
     return out;
+}
+
+void GltfFile::check_index_type(const Item& accessor) {
+    const std::size_t type = accessor.at("componentType").whole(0);
+    if (type != 5121 && type != 5123 && type != 5125)
+        accessor.at("componentType")
+            .fail("is " + std::to_string(type) + ", but indices are unsigned integers (5121, 5123 or 5125)");
 }
 
 // Replaces some of an accessor's elements by its sparse ones.
@@ -247,6 +267,7 @@ void GltfFile::replace(AccessorValues& out, const Layout& at, const Item& sparse
     const Item number = sparse.at("indices"), value = sparse.at("values");
     indices.type = number.at("componentType").whole(0);
     indices.component_bytes = bytes_of_component(number.at("componentType"));
+    check_index_type(number);
     indices.width = 1;
     indices.stride = indices.component_bytes;
     values.stride = at.component_bytes * at.width;

@@ -41,6 +41,8 @@ class GltfFile {
     /// Return the bytes of a buffer view, and the numbers of an accessor with its sparse replacements.
     std::string_view view(const Item& buffer_view);
     AccessorValues numbers(const Item& accessor);
+    /// Checks that an accessor of indices has a type that indices may have.
+    static void check_index_type(const Item& accessor);
     /// Returns the content of a data: URI; nothing for others.
     static std::optional<std::string> data_of(const std::string& uri);
     /// Returns the file that a URI names, with %20 and the like replaced by their bytes.

@@ -84,6 +84,26 @@ std::vector<Matrix> instances_of(GltfFile& file, const Item& instancing, const M
     return all;
 }
 
+// Throws std::runtime_error for JSON that is nested deeper than Assimp, which recurses, can follow.
+void check_depth(std::string_view json) {
+    constexpr int deepest = 1000;
+    int depth = 0;
+    bool in_text = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (in_text) {
+            if (c == '\\') ++i;
+            in_text = c != '"';
+        } else if (c == '{' || c == '[') {
+            if (++depth > deepest) throw std::runtime_error("its JSON is nested more than 1000 levels deep");
+        } else if (c == '}' || c == ']') {
+            --depth;
+        } else {
+            in_text = c == '"';
+        }
+    }
+}
+
 std::vector<double> list_of(const Item& numbers) {
     std::vector<double> all;
     for (std::size_t i = 0; i < numbers.size(); ++i) all.push_back(numbers[i].number(0));
@@ -153,7 +173,8 @@ bool GltfLoader::CanRead(const std::string& file, Assimp::IOSystem* io, bool) co
     const std::string bytes = whole_file(*io, file).value_or("");
     if (bytes.starts_with("glTF")) return bytes.size() >= 8 && bytes[4] != 1;
     const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-    if (first == std::string::npos || bytes[first] != '{') return false;
+    if (first == std::string::npos || (bytes[first] != '{' && bytes[first] != '[')) return false;
+    check_depth(bytes);
     const auto description = nlohmann::json::parse(bytes, nullptr, false);
     const bool named = SimpleExtensionCheck(file, "gltf", "glb", "vrm");
     if (!description.is_object() || !description.contains("asset") || !description["asset"].is_object()) return named;

@@ -114,8 +114,9 @@ std::vector<std::uint32_t> GltfMeshes::triangles(const Primitive& primitive, std
     std::vector<std::uint32_t> order;
     const auto accessor = file_.named(primitive.item.at("indices"), "accessors");
     if (primitive.packed || accessor) {
-        const std::vector<double> all = primitive.packed ? primitive.packed->indices() : file_.numbers(*accessor).all;
         if (accessor && accessor->at("type").text() != "SCALAR") accessor->fail("has the wrong type for indices");
+        if (accessor) file_.check_index_type(*accessor);
+        const std::vector<double> all = primitive.packed ? primitive.packed->indices() : file_.numbers(*accessor).all;
         for (const double i : all) {
             if (!(i >= 0 && i < double(vertices)))
                 primitive.item.fail("has indices of vertices that do not exist; the file is damaged, export it again");
