@@ -4,7 +4,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace lfdsim::reader;
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    for (const char* ending : {".obj", ".off", ".stl"}) nearer_the_origin(text, ending);
+    for (const char* ending : {".obj", ".off", ".stl"}) readable_positions(text, ending);
     std::map<std::string, Tiling> tilings;
     NotShown not_shown;
     without_texture_options(text, tilings, not_shown);

@@ -224,6 +224,108 @@ TEST(FarFromTheOrigin, WhatFloatsRoundIsSaid) {
     EXPECT_THAT(amf(3), testing::IsEmpty());
 }
 
+// A pyramid with a square base, in each format; its numbers are written times `unit`.
+std::vector<fs::path> write_pyramids(const Folder& folder, double unit) {
+    const std::vector<std::array<double, 3>> corner{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0.31, 0.23, 1}};
+    const std::vector<std::vector<int>> face{{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    const std::array<std::array<int, 3>, 6> triangle{{{3, 2, 1}, {3, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
+    std::string obj, faces, places, off = "OFF\n5 5 0\n", stl = "solid p\n", triangles, amf, volume, bytes, indices;
+    std::string binary = std::string(80, ' ') + std::string("\6\0\0\0", 4);
+    const auto text = [&](int k) {
+        char out[100];
+        const auto& c = corner[std::size_t(k)];
+        std::snprintf(out, sizeof out, "%.9g %.9g %.9g", c[0] * unit, c[1] * unit, c[2] * unit);
+        return std::string(out);
+    };
+    const auto put = [&](std::string& to, int k) {
+        for (const double x : corner[std::size_t(k)]) {
+            const auto value = float(x * unit);
+            to.append(reinterpret_cast<const char*>(&value), sizeof value);
+        }
+    };
+    for (int k = 0; k < 5; ++k) {
+        places += text(k) + "\n";
+        obj += "v " + text(k) + "\n";
+        std::istringstream words(text(k));
+        amf += "<vertex><coordinates>";
+        for (const char* name : {"x", "y", "z"}) {
+            std::string word;
+            words >> word;
+            amf += std::string("<") + name + ">" + word + "</" + name + ">";
+        }
+        amf += "</coordinates></vertex>";
+        put(bytes, k);
+    }
+    for (const auto& f : face) {
+        obj += "f";
+        faces += std::to_string(f.size());
+        for (const int k : f) obj += " " + std::to_string(k + 1), faces += " " + std::to_string(k);
+        obj += "\n", faces += "\n";
+    }
+    for (const auto& [a, b, c] : triangle) {
+        stl += "facet normal 0 0 0\nouter loop\n";
+        binary += std::string(12, '\0');
+        for (const int k : {a, b, c}) {
+            stl += "vertex " + text(k) + "\n";
+            put(binary, k);
+            indices += std::string{char(k), '\0'};
+        }
+        stl += "endloop\nendfacet\n";
+        binary += std::string(2, '\0');
+        volume += "<triangle><v1>" + std::to_string(a) + "</v1><v2>" + std::to_string(b) + "</v2><v3>" + std::to_string(c) +
+                  "</v3></triangle>";
+    }
+    folder.write("p.bin", bytes + indices);
+    const std::string header =
+        "element vertex 5\nproperty double x\nproperty double y\nproperty double z\nelement face 5\n"
+        "property list uchar int vertex_indices\n";
+    return {folder.write("p.obj", obj),
+            folder.write("p.off", off + places + faces),
+            folder.write("p.stl", stl + "endsolid\n"),
+            folder.write("b.stl", binary),
+            folder.write("p.ply", ply(header, places + faces)),
+            folder.write("p.amf", "<?xml version=\"1.0\"?><amf><object id=\"0\"><mesh><vertices>" + amf + "</vertices><volume>" +
+                                      volume + "</volume></mesh></object></amf>"),
+            folder.write("p.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+                "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+                "buffers":[{"uri":"p.bin","byteLength":96}],
+                "bufferViews":[{"buffer":0,"byteLength":60},{"buffer":0,"byteOffset":60,"byteLength":36}],
+                "accessors":[{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"},
+                             {"bufferView":1,"componentType":5123,"count":18,"type":"SCALAR"}]})")};
+}
+
+// A model looks the same at any size that floats hold: no threshold of a length is seen.
+TEST(AnySize, LooksTheSame) {
+    Folder folder;
+    std::vector<Image> usual;
+    for (const fs::path& file : write_pyramids(folder, 1)) usual.push_back(photo(file));
+    for (const double unit : {1e-30, 2e-12, 1e-9, 1e-7, 1e-5, 1e9, 1e16, 1e34}) {
+        std::size_t k = 0;
+        for (const fs::path& file : write_pyramids(folder, unit)) {
+            const Image& same = usual[k++];
+            const Image image = photo(file);
+            double difference = 0, light = 0;
+            for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+                difference += std::abs(double(image.rgb[i]) - same.rgb[i]);
+                light += same.rgb[i];
+            }
+            EXPECT_LT(difference, 1e-3 * light) << file.filename() << " of " << unit << " units";
+            EXPECT_THAT(info(*load_model(file)).notes, testing::IsEmpty());
+        }
+    }
+}
+
+// Vertices of no face lie anywhere; scanners mark what they did not see by the largest float.
+TEST(AnySize, OtherVerticesDoNotCount) {
+    Folder folder;
+    const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n", one = "4 0 1 2 3\n";
+    const Image usual = photo(folder.write("u.ply", ply(xyz + faces, square + one)));
+    for (const char* stray : {"1e12 0 0\n", "0 3.4e38 0\n"}) {
+        const std::string header = "element vertex 5\n" + xyz.substr(xyz.find("property"));
+        EXPECT_EQ(photo(folder.write("s.ply", ply(header + faces, square + (stray + one)))).rgb, usual.rgb) << stray;
+    }
+}
+
 // The square is covered by texture coordinates from 0 to 1; "-s 0.5 0.5" shows the lower left quarter, "-o" moves it.
 TEST(Obj, TextureOptions) {
     Folder folder;

@@ -5,13 +5,13 @@
 #include "base/counted.h"
 #include "content/reader/axes.h"
 #include "content/reader/colours_3mf.h"
+#include "content/reader/fit_to_floats.h"
 #include "content/reader/gltf/gltf_loader.h"
 #include "content/reader/limits/edited_text.h"
 #include "content/reader/limits/folder.h"
 #include "content/reader/limits/not_shown.h"
 #include "content/reader/limits/refusal.h"
 #include "content/reader/limits/warnings.h"
-#include "content/reader/move_to_origin.h"
 #include "content/reader/ply/ply_loader.h"
 #include "content/reader/repairs.h"
 #include "content/reader/textures.h"
@@ -331,11 +331,15 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     NotShown not_shown;
     std::map<std::string, Tiling> tilings;
+    int exponent = 0;  // of the power of two by which positions are multiplied as long as Assimp has them
     folder->edited = [&](const std::string& name) -> std::optional<std::string> {
         const std::string ending = lower_ending(name);
         if (ending == ".mtl") return without_texture_options(bytes_of(name), tilings, not_shown);
-        if (ending == ".obj" || ending == ".off" || ending == ".stl") return nearer_the_origin(bytes_of(name), ending);
-        return {};
+        if (ending != ".obj" && ending != ".off" && ending != ".stl") return {};
+        auto scaled = readable_positions(bytes_of(name), ending);
+        if (!scaled) return {};
+        exponent = scaled->exponent;
+        return std::move(scaled->text);
     };
     choose_loaders(importer, file, *folder, not_shown);
     auto* warnings = new Warnings;  // owned by the logger
@@ -352,7 +356,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         repair(loaded, file, format);
         note_deformations(loaded, not_shown);
         if (is_3mf) note_3mf(file, not_shown);
-        move_to_origin(loaded, not_shown);
+        exponent += fit_to_floats(loaded, not_shown);
         scene = importer.ApplyPostProcessing(steps | (may_join(loaded, format) ? aiProcess_JoinIdenticalVertices : 0u) |
                                              (flat_without_normals(file, format) ? 0u : aiProcess_GenSmoothNormals));
     }
@@ -371,6 +375,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
             if (std::optional<std::string> plain = plain_warning(warning)) model.notes.push_back(std::move(*plain));
     model.files.insert(model.files.end(), folder->opened().begin(), folder->opened().end());
     mend_normals(model);
+    for (float& x : model.positions) x = std::ldexp(x, -exponent);
     return model;
 }
 

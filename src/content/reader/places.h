@@ -10,8 +10,8 @@ namespace lfdsim::reader {
 
 using Place = aiVector3t<double>;
 
-/// The middle of the box about positions. Positions are taken relative to it if it lies farther from the origin than the box is
-/// long: there a float would round by more than about 1e-7 of the size.
+/// The middle and the size of the box about positions. Positions are taken relative to the middle if it lies farther from the
+/// origin than the box is long: there a float would round by more than about 1e-7 of the size.
 class BoxMiddle {
   public:
     void add(const Place& p) {
@@ -29,6 +29,10 @@ class BoxMiddle {
     }
     /// Returns the diagonal of the box.
     double size() const { return (high_ - low_).Length(); }
+    /// Returns the exponent of the power of two that gives the box a diagonal of 2^20 to 2^21; 0 without one. Assimp has thresholds
+    /// of length, up to 1e-5, which are then below a float's last bit, and takes squares of areas, which are then within the range
+    /// of floats; no bit of a result changes otherwise.
+    int exponent() const { return size() > 0 && std::isfinite(size()) ? 20 - std::ilogb(size()) : 0; }
 
   private:
     static constexpr double none = std::numeric_limits<double>::max() / 4;

@@ -4,6 +4,7 @@
 
 #include <strings.h>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
 namespace lfdsim::reader {
@@ -85,7 +86,7 @@ bool is_unusual(std::string_view rest) {
 
 }  // namespace
 
-std::optional<std::string> nearer_the_origin(std::string_view text, std::string_view ending) {
+std::optional<ScaledText> readable_positions(std::string_view text, std::string_view ending) {
     // The first pass finds the middle, the second writes positions relative to it.
     BoxMiddle middle;
     std::string_view rest = text;
@@ -97,8 +98,10 @@ std::optional<std::string> nearer_the_origin(std::string_view text, std::string_
         if (!found || (ending == ".obj" && is_unusual(found->rest))) return {};
         middle.add(found->place);
     }
+    const int exponent = middle.size() < 1e-6 ? middle.exponent() : 0;  // Assimp reads 15 digits after the point
     const Place offset = middle.offset();
-    if (offset == Place()) return {};
+    if (offset == Place() && exponent == 0) return {};
+    const double factor = std::ldexp(1., exponent);
     std::string out;
     out.reserve(text.size());
     rest = text;
@@ -113,13 +116,13 @@ std::optional<std::string> nearer_the_origin(std::string_view text, std::string_
         out += *before;
         for (unsigned k = 0; k < 3; ++k) {
             char digits[64];
-            const auto end =
-                std::to_chars(digits, digits + sizeof digits, float(found->place[k] - offset[k]), std::chars_format::fixed);
+            const auto moved = float((found->place[k] - offset[k]) * factor);
+            const auto end = std::to_chars(digits, digits + sizeof digits, moved, std::chars_format::fixed);
             out.append(" ").append(digits, end.ec == std::errc() ? end.ptr : digits);
         }
         out.append(found->rest) += '\n';
     }
-    return out;
+    return ScaledText{std::move(out), exponent};
 }
 
 std::string without_texture_options(std::string_view text, std::map<std::string, Tiling>& tilings, NotShown& not_shown) {

@@ -10,9 +10,16 @@
 
 namespace lfdsim::reader {
 
-/// Returns an OBJ, OFF or text STL file with positions relative to the middle of their box, if that is so far from the origin
-/// that floats would round them; nothing if no change is needed, or if positions are unusual. `ending`: ".obj", ".off" or ".stl".
-std::optional<std::string> nearer_the_origin(std::string_view text, std::string_view ending);
+/// A text whose positions are multiplied by 2^exponent.
+struct ScaledText {
+    std::string text;
+    int exponent;
+};
+
+/// Returns an OBJ, OFF or text STL file with positions relative to the middle of their box, if that is so far from the origin that
+/// floats would round them, and scaled, if they are so small that Assimp does not read all their digits; nothing if no change is
+/// needed, or if positions are unusual. `ending`: ".obj", ".off" or ".stl".
+std::optional<ScaledText> readable_positions(std::string_view text, std::string_view ending);
 
 /// The transformation of texture coordinates by a .mtl file: offset + scale (u, v).
 struct Tiling {

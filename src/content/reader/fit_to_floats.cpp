@@ -1,4 +1,4 @@
-#include "content/reader/move_to_origin.h"
+#include "content/reader/fit_to_floats.h"
 
 #include "content/reader/places.h"
 
@@ -14,6 +14,7 @@ double largest_of(const Place& p) { return std::max({std::abs(p.x), std::abs(p.y
 /// The extent of all meshes of a scene and the largest numbers in it.
 struct MeshExtent {
     BoxMiddle middle;   // in the scene's coordinates
+    BoxMiddle shown;    // of the vertices of faces: others may lie anywhere
     double vertex = 0;  // the largest number of a vertex, in its node's coordinates
     // The largest and the second largest number of nodes' translations: the rounding of a single one moves everything alike.
     double translation = 0, second_translation = 0;
@@ -34,6 +35,10 @@ void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4t<double>& a
             all.middle.add(here * p);
             all.vertex = std::max(all.vertex, largest_of(p));
         }
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+            for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
+                if (const unsigned v = mesh.mFaces[f].mIndices[k]; v < mesh.mNumVertices)  // others are refused later, in words
+                    all.shown.add(here * Place(mesh.mVertices[v]));
     }
     for (unsigned c = 0; c < node.mNumChildren; ++c) add(scene, *node.mChildren[c], here, all, depth + 1);
 }
@@ -46,19 +51,34 @@ std::string details_below(double share) {
     return text.str();
 }
 
+// Multiplies the translations of a node and of those below it.
+void scale(aiNode& node, double factor) {
+    aiMatrix4x4& m = node.mTransformation;
+    for (float* x : {&m.a4, &m.b4, &m.c4}) *x = float(factor * double(*x));
+    for (unsigned c = 0; c < node.mNumChildren; ++c) scale(*node.mChildren[c], factor);
+}
+
 }  // namespace
 
-void move_to_origin(aiScene& scene, NotShown& not_shown) {
+int fit_to_floats(aiScene& scene, NotShown& not_shown) {
     MeshExtent extent;
     add(scene, *scene.mRootNode, {}, extent);
-    const Place offset = extent.middle.offset();
-    if (offset == Place()) return;
-    aiMatrix4x4 back;
-    aiMatrix4x4::Translation(to_float(offset * -1.), back);
-    scene.mRootNode->mTransformation = back * scene.mRootNode->mTransformation;
-    // Half of a float's last bit, as a share of the model's size
-    const double share = std::ldexp(std::max(extent.vertex, extent.second_translation), -24) / extent.middle.size();
-    if (share > 1e-6) not_shown.add(details_below(share));
+    // The largest number stays a float.
+    const int exponent = std::min(extent.shown.exponent(), 126 - std::ilogb(std::max({extent.vertex, extent.translation, 1.})));
+    const double factor = std::ldexp(1., exponent);
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        for (unsigned v = 0; v < scene.mMeshes[m]->mNumVertices; ++v)
+            scene.mMeshes[m]->mVertices[v] = to_float(Place(scene.mMeshes[m]->mVertices[v]) * factor);
+    scale(*scene.mRootNode, factor);
+    if (const Place offset = extent.middle.offset(); offset != Place()) {
+        aiMatrix4x4 back;
+        aiMatrix4x4::Translation(to_float(offset * -factor), back);
+        scene.mRootNode->mTransformation = back * scene.mRootNode->mTransformation;
+        // Half of a float's last bit, as a share of the model's size
+        const double share = std::ldexp(std::max(extent.vertex, extent.second_translation), -24) / extent.middle.size();
+        if (share > 1e-6) not_shown.add(details_below(share));
+    }
+    return exponent;
 }
 
 }  // namespace lfdsim::reader
