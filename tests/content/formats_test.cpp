@@ -155,6 +155,13 @@ TEST(Ply, WhatIsNoMeshIsNamed) {
     EXPECT_THAT(refused(folder.write("t.ply", ply(xyz + "property quad w\n" + face, square))), testing::HasSubstr("unknown type"));
 }
 
+TEST(Ply, FacesOfTwoCornersAreNoted) {
+    Folder folder;
+    const auto file = folder.write(
+        "e.ply", ply(xyz + "element face 2\nproperty list uchar int vertex_indices\n", std::string(square) + "4 0 1 2 3\n2 0 2\n"));
+    EXPECT_THAT(info(*load_model(file)).notes, testing::ElementsAre("points and lines are not shown"));
+}
+
 TEST(Ply, WhatIsLeftOutIsSaid) {
     Folder folder;
     const std::string header =
@@ -344,6 +351,37 @@ TEST(Obj, TextureOptions) {
     EXPECT_THAT(info(*load_model(folder.path() / "m.obj")).notes, testing::IsEmpty());
     shown("-mm 0.2 0.5");
     EXPECT_THAT(info(*load_model(folder.path() / "m.obj")).notes, testing::ElementsAre("options -mm of textures are not shown"));
+}
+
+// A colour of one number is grey; what is no number from 0 to 1 is noted.
+TEST(Obj, ColoursOfOneNumber) {
+    Folder folder;
+    const auto write = [&](const std::string& colour) {
+        folder.write("k.mtl", "newmtl m\nKd " + colour + "\n");
+        return folder.write("k.obj", "mtllib k.mtl\nusemtl m\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    };
+    const Image grey = photo(write("0.5 0.5 0.5"));
+    EXPECT_EQ(photo(write("0.5")).rgb, grey.rgb);
+    EXPECT_EQ(photo(write(" 0.5\t\r")).rgb, grey.rgb);
+    EXPECT_EQ(photo(write("0.5 # of light")).rgb, grey.rgb);
+    EXPECT_THAT(info(*load_model(write("0.5"))).notes, testing::IsEmpty());
+    EXPECT_THAT(refused(write("0.5 0.2")), testing::HasSubstr("k.mtl, line 2: a colour (Kd) has one or three numbers, this one 2"));
+    for (const char* colour : {"5 -1 0", "0 1 nan", "1.01"})
+        EXPECT_THAT(info(*load_model(write(colour))).notes,
+                    testing::ElementsAre("colours that are not numbers from 0 to 1 are not shown"));
+}
+
+TEST(Obj, WhatIsNoTriangleIsNoted) {
+    Folder folder;
+    const std::string white = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+    const auto notes = [&](const std::string& more) { return info(*load_model(folder.write("n.obj", white + more))).notes; };
+    EXPECT_THAT(notes(""), testing::IsEmpty());
+    for (const char* more : {"f 1 3\n", "f 1\n", "f 1", "l 1 3\n", "p 1\n"})
+        EXPECT_THAT(notes(more), testing::ElementsAre("points and lines are not shown")) << more;
+    for (const char* more : {"cstype bezier\ndeg 3 3\nsurf 0 1 0 1 1 2 3 4\nend\n", "curv 0 1 1 2 3\n"})
+        EXPECT_THAT(notes(more), testing::ElementsAre("free-form curves and surfaces are not shown")) << more;
+    EXPECT_THAT(refused(folder.write("l.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 3\n")),
+                testing::HasSubstr("has no triangles: nothing to show (points and lines are not shown)"));
 }
 
 }  // namespace

@@ -79,11 +79,11 @@ class Conversion {
         if (dropped_ > 0) model_.notes.push_back(counted(dropped_, "face") + " left out: degenerate");
         if (!linear_ && std::any_of(model_.textures.begin(), model_.textures.end(), has_alpha)) transparent_ = true;
         if (transparent_) model_.notes.push_back("transparent materials are shown opaque");
+        if (out_of_range_) left_out_.add("colours that are not numbers from 0 to 1");
         const std::vector<std::string> left_out = left_out_.notes();
         model_.notes.insert(model_.notes.end(), left_out.begin(), left_out.end());
         show_black();
-        if (model_.indices.empty())
-            throw std::runtime_error("has no triangles: nothing to show" + (left_out.empty() ? "" : " (" + left_out.front() + ")"));
+        if (model_.indices.empty()) throw std::runtime_error(no_triangles(left_out_));
         return std::move(model_);
     }
 
@@ -96,8 +96,9 @@ class Conversion {
                std::any_of(first, first + mesh.mNumVertices, [](const aiColor4D& c) { return c.r > 0 || c.g > 0 || c.b > 0; });
     }
 
-    // Returns a component of a colour of the file in linear light, 0 to 1.
-    float light(float colour) const {
+    // Returns a component of a colour of the file in linear light, 0 to 1; others are noted, but for what rounding may add.
+    float light(float colour) {
+        if (!(colour >= 0 && colour < 1.001f)) out_of_range_ = true;
         const double c = std::isfinite(colour) ? std::clamp(double(colour), 0., 1.) : 0;
         return float(linear_ ? c : srgb_to_linear(c));
     }
@@ -244,7 +245,7 @@ class Conversion {
     Model model_;
     NotShown left_out_;
     std::int64_t dropped_ = 0;
-    bool transparent_ = false;
+    bool transparent_ = false, out_of_range_ = false;
 };
 
 // Replaces normals that are missing or broken (of a length not between 1/2 and 2) by those of faces: they would leave holes in
@@ -270,14 +271,16 @@ void mend_normals(Model& model) {
     }
 }
 
-// Notes animations, skins, morph targets, points and lines, which are not shown.
+// Notes animations, skins, morph targets, points and lines (which faces of fewer than three corners are), which are not shown.
 void note_deformations(const aiScene& scene, NotShown& not_shown) {
     if (scene.mNumAnimations > 0) not_shown.add("animations");
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         const aiMesh& mesh = *scene.mMeshes[m];
         if (mesh.mNumBones > 0) not_shown.add("skins' poses");
         if (mesh.mNumAnimMeshes > 0) not_shown.add("morph targets");
-        if (mesh.mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE)) not_shown.add("points and lines");
+        if (mesh.mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE) ||
+            std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces, [](const aiFace& face) { return face.mNumIndices < 3; }))
+            not_shown.add("points and lines");
     }
 }
 
@@ -334,9 +337,12 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     int exponent = 0;  // of the power of two by which positions are multiplied as long as Assimp has them
     folder->edited = [&](const std::string& name) -> std::optional<std::string> {
         const std::string ending = lower_ending(name);
-        if (ending == ".mtl") return without_texture_options(bytes_of(name), tilings, not_shown);
+        if (ending == ".mtl")
+            return readable_materials(bytes_of(name), std::filesystem::path(name).filename().string(), tilings, not_shown);
         if (ending != ".obj" && ending != ".off" && ending != ".stl") return {};
-        auto scaled = readable_positions(bytes_of(name), ending);
+        const std::string text = bytes_of(name);
+        if (ending == ".obj") note_free_forms(text, not_shown);
+        auto scaled = readable_positions(text, ending);
         if (!scaled) return {};
         exponent = scaled->exponent;
         return std::move(scaled->text);
@@ -362,7 +368,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     }
     if (!scene) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
-        throw std::runtime_error(refusal(importer.GetErrorString(), file));
+        throw std::runtime_error(refusal(importer.GetErrorString(), file, not_shown));
     }
     // A face without a valid vertex means a damaged file: Assimp would leave it out and continue.
     for (const std::string& warning : warnings->texts)

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 namespace lfdsim::reader {
 namespace {
@@ -84,6 +85,19 @@ bool is_unusual(std::string_view rest) {
     return count == 1 || rest.ends_with('\\');
 }
 
+// Returns a colour's words as they are, and of a grey that is given by one number three. Throws std::runtime_error, which names the
+// place, for other numbers of words.
+std::string three_numbers(std::string_view colour, const std::string& place) {
+    std::string all;
+    std::string_view rest = colour, word;
+    int count = 0;
+    for (word = next_word(rest); !word.empty() && !word.starts_with('#'); word = next_word(rest), ++count)
+        all.append(" ").append(word);
+    if (count == 1) return all + all + all;
+    if (count < 3) throw std::runtime_error(place + ": a colour (Kd) has one or three numbers, this one " + std::to_string(count));
+    return all;
+}
+
 }  // namespace
 
 std::optional<ScaledText> readable_positions(std::string_view text, std::string_view ending) {
@@ -125,11 +139,21 @@ std::optional<ScaledText> readable_positions(std::string_view text, std::string_
     return ScaledText{std::move(out), exponent};
 }
 
-std::string without_texture_options(std::string_view text, std::map<std::string, Tiling>& tilings, NotShown& not_shown) {
+void note_free_forms(std::string_view text, NotShown& not_shown) {
+    while (!text.empty()) {
+        std::string_view line = next_line(text);
+        const std::string_view key = next_word(line);
+        if (key == "cstype" || key == "curv" || key == "curv2" || key == "surf") not_shown.add("free-form curves and surfaces");
+    }
+}
+
+std::string readable_materials(std::string_view text, const std::string& name, std::map<std::string, Tiling>& tilings,
+                               NotShown& not_shown) {
     const auto is = [](std::string_view word, const char* key) {
         return word.size() == std::strlen(key) && strncasecmp(word.data(), key, word.size()) == 0;
     };
     std::string out, material;
+    std::size_t number = 0;  // of the line
     while (!text.empty()) {
         const std::string_view line = next_line(text);
         std::string_view rest = line;
@@ -137,6 +161,11 @@ std::string without_texture_options(std::string_view text, std::map<std::string,
         if (is(key, "newmtl")) {
             const std::size_t first = rest.find_first_not_of(" \t\r"), last = rest.find_last_not_of(" \t\r");
             material = first == std::string_view::npos ? "" : rest.substr(first, last + 1 - first);
+        }
+        ++number;
+        if (is(key, "Kd")) {
+            out.append(key).append(three_numbers(rest, name + ", line " + std::to_string(number))) += '\n';
+            continue;
         }
         if (!is(key, "map_Kd")) {
             out.append(line) += '\n';

@@ -21,13 +21,17 @@ struct ScaledText {
 /// needed, or if positions are unusual. `ending`: ".obj", ".off" or ".stl".
 std::optional<ScaledText> readable_positions(std::string_view text, std::string_view ending);
 
+/// Notes what else of an OBJ file Assimp leaves out: free-form curves and surfaces.
+void note_free_forms(std::string_view text, NotShown&);
+
 /// The transformation of texture coordinates by a .mtl file: offset + scale (u, v).
 struct Tiling {
     std::array<double, 2> offset{0, 0}, scale{1, 1};
 };
 
-/// Returns a .mtl file without the options of its colour textures. Those that move or scale a texture go to `tilings`, by the
-/// materials' names; others are not shown.
-std::string without_texture_options(std::string_view text, std::map<std::string, Tiling>& tilings, NotShown&);
+/// Returns a .mtl file whose colours of one number have three, without the options of its colour textures. Those that move or scale
+/// a texture go to `tilings`, by the materials' names; others are not shown. Throws std::runtime_error, which names the file by
+/// `name`, for colours that cannot be.
+std::string readable_materials(std::string_view text, const std::string& name, std::map<std::string, Tiling>& tilings, NotShown&);
 
 }  // namespace lfdsim::reader

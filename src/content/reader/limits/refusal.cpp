@@ -31,8 +31,14 @@ std::optional<std::string> wrong_length(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string refusal(const std::string& says, const std::filesystem::path& file) {
-    if (says.starts_with("No output meshes")) return wrong_length(file).value_or("has no triangles: nothing to show");
+std::string no_triangles(const NotShown& not_shown) {
+    const std::vector<std::string> notes = not_shown.notes();
+    return "has no triangles: nothing to show" + (notes.empty() ? "" : " (" + notes.front() + ")");
+}
+
+std::string refusal(const std::string& says, const std::filesystem::path& file, const NotShown& not_shown) {
+    if (says.starts_with("No output meshes") || says.starts_with("No meshes remaining"))
+        return wrong_length(file).value_or(no_triangles(not_shown));
     if (says.find("Failed to open file") != says.npos) return "is damaged, or not of the format that its name states";
     return says;
 }

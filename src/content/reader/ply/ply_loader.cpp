@@ -108,7 +108,10 @@ class Reading {
         }
         for (std::size_t f = 0; indices && f < faces.count; ++f) {
             const std::size_t size = indices->size(f);
-            if (size < 3) continue;
+            if (size < 3) {
+                not_shown_.add("points and lines");
+                continue;
+            }
             Polygons& to = meshes_[texture && !texture->is_list ? texture_of(*texture->row(f)) : 0];
             const bool own_uvs = uvs && uvs->is_list && uvs->size(f) == 2 * size;
             if (uvs && !own_uvs && uvs->size(f) > 0) not_shown_.add("texture coordinates of some faces");
