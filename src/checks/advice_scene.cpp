@@ -44,9 +44,9 @@ bool advise_near_eye(Advised& a, double eye) {
     const double seen = std::min(std::min(a.geometry.array_height_mm, a.geometry.panel_height_mm) / eye,
                                  2 * std::tan(a.theory.along[1].fov_elemental_deg * degree / 2));
     a.say(
-        "the scene is {:.4g} mm in front of the lenses and {:.4g} mm from the eye, nearer than eyes can focus. Set its depth and "
+        "the scene is {} and {:.4g} mm from the eye, nearer than eyes can focus. Set its depth and "
         "height (--set content.depth_mm={:.0f} --set content.height_mm={:.0f})",
-        a.geometry.content_depth_mm, to_eye, depth, 0.5 * seen * (eye - depth));
+        depth_in_words(a.geometry.content_depth_mm), to_eye, depth, 0.5 * seen * (eye - depth));
     return true;
 }
 

@@ -65,6 +65,13 @@ TEST(Advice, OnPowerNamesKeysOfTheLens) {
                                               testing::Not(HasSubstr("lens.index")))));
 }
 
+// Depths behind the lenses are said to be there.
+TEST(Advice, OnTheNearEyeSaysWhereTheSceneIs) {
+    Display d = near_eye();
+    d.content.depth_mm = -60;
+    EXPECT_THAT(advice_for(d), Contains(HasSubstr("the scene is 60 mm behind the lenses and 7")));
+}
+
 // Near a pinhole the angle that joins the holes would mix the views: another distance is advised.
 TEST(Advice, AnAngleThatMixesViewsIsNoRemedyForDarkBands) {
     Display d;

@@ -212,6 +212,16 @@ TEST(Zone, SaysWhereEyesCannotBe) {
     }
 }
 
+// A hexagon's image has a corner above its middle: theory by rows has no figure there, and says so.
+TEST(Zone, HexagonsHaveNoTheoryUpwards) {
+    Display d = many_lenses(sharp_at_eye);
+    d.array.lattice = LatticeKind::hexagon;
+    const Result result = zone_of(d);
+    EXPECT_TRUE(result.figures.at("vertical").at("theory_deg").is_null());
+    EXPECT_NE(result.notes.at("vertical.theory_deg").get<std::string>().find("corner"), std::string::npos);
+    EXPECT_EQ(result.figures.at("horizontal").at("theory_deg").size(), 2u);
+}
+
 // No light anywhere: the lenses stand beside the panel.
 TEST(Zone, OfADarkDisplayIsEmpty) {
     Display d = many_lenses(7);

@@ -238,20 +238,20 @@ std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Th
         return std::isinf(L) ? fmt::format("{:.3g} degrees", std::atan(slope) / degree)
                              : fmt::format("{} mm", digits(slope * std::abs(L)));
     };
-    const auto in_words = [&](const SharpRange& range, const char* are) {
+    const auto in_words = [&](const SharpRange& range, const char* depths_are, const char* none_is) {
         const bool none = range.behind.empty() && range.in_front.empty();
-        return fmt::format("{}{} {}", none ? "" : "depths ", depths_in_words(g, range, eye), are);
+        return fmt::format("{}{} {}", none ? "" : "depths ", depths_in_words(g, range, eye), none ? none_is : depths_are);
     };
     const std::string sharp =
         std::isnan(b->sharp.near_per_mm)
             ? fmt::format("no depth is sharp (the spot comes nearest to a pixel's image {})", place(depth_mm(b->sharp.best_per_mm)))
-            : in_words(range_of_inverse(g, b->sharp.near_per_mm, b->sharp.far_per_mm, eye), "are sharp");
+            : in_words(range_of_inverse(g, b->sharp.near_per_mm, b->sharp.far_per_mm, eye), "are sharp", "is sharp");
     return fmt::format(
         "spherical aberration blurs the lenses: in the central depth plane, {}, a point of the panel becomes a spot {} wide, most "
         "of its "
         "light {}, where the image of a pixel is {}: {}; without aberration {}. {}",
-        place(L), wide(b->full_pixels), wide(b->pixels), wide(1), sharp, in_words(sharp_by_pixel(g, t, eye), "would be"),
-        stop_remedy(d, stop_against_blur(d, g)));
+        place(L), wide(b->full_pixels), wide(b->pixels), wide(1), sharp,
+        in_words(sharp_by_pixel(g, t, eye), "would be", "would be"), stop_remedy(d, stop_against_blur(d, g)));
 }
 
 /// Returns the remedy that mixes the colours, found by trial: colours along the strips, slanted strips, a diffuser.

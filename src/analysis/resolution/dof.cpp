@@ -10,6 +10,7 @@
 #include "analysis/resolution/dof_depths.h"
 #include "analysis/spots/spot_depth.h"
 #include "base/constants.h"
+#include "checks/depth_words.h"
 #include "geometry/sharp_range.h"
 
 #include <fmt/format.h>
@@ -126,7 +127,7 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
     result.add_line({}, {.label = "Resolution at the content's depth: limit of lenses and pixels",
                          .unit = "cycles per degree",
                          .theory = per_degree,
-                         .remark = fmt::format("{:.4g} cycles per mm, {:.4g} mm in front of the lenses", at_content, z)});
+                         .remark = fmt::format("{:.4g} cycles per mm, {}", at_content, depth_in_words(z))});
     result.tables.push_back(std::move(table));
     result.plots.push_back(std::move(plot));
 }

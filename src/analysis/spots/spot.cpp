@@ -209,18 +209,17 @@ Result measure_spot(Subject& s, Job& job) {
     const double L = s.theory().central_depth_mm, D = light_width_mm(s.display(), s.geometry())[0];
     for (const std::size_t k : {std::size_t(0), depths.size() / 2, depths.size() - 1}) {
         const double z = depths[k];
-        result.add_line(
-            spot_at(s, fields.front(), z).meridional,
-            {.label = fmt::format("Full width of the spot on the axis, {:.4g} mm in front of the lenses", z + from_vertex),
-             .unit = "mm",
-             .theory = D * std::abs(std::isinf(L) ? 1 : z / L - 1),
-             .remark = "theory is paraxial: the difference is aberration"});
+        result.add_line(spot_at(s, fields.front(), z).meridional,
+                        {.label = fmt::format("Full width of the spot on the axis, {}", depth_in_words(z + from_vertex)),
+                         .unit = "mm",
+                         .theory = D * std::abs(std::isinf(L) ? 1 : z / L - 1),
+                         .remark = "theory is paraxial: the difference is aberration"});
     }
     const double middle = depths[depths.size() / 2];
     for (const LensField& f : fields)
         result.add_line(
             spot_at(s, f, middle).rms,
-            {.label = fmt::format("RMS radius of the spot, {}, {:.4g} mm in front of the lenses", f.title, middle + from_vertex),
+            {.label = fmt::format("RMS radius of the spot, {}, {}", f.title, depth_in_words(middle + from_vertex)),
              .unit = "mm",
              .remark = is_strips(s.display().array)
                            ? "of the light of a Lambertian panel point in the plane across the strips, about its centroid"

@@ -5,6 +5,7 @@
 #include "analysis/core/estimate.h"
 #include "analysis/core/figure_json.h"
 #include "base/constants.h"
+#include "checks/depth_words.h"
 #include "display/colour.h"
 
 #include <fmt/format.h>
@@ -48,7 +49,7 @@ double central_depth_mm(const Subject& s, const Coloured& c) { return theory(s.d
 /// Returns a diagram of a field's spots in all colours at a depth, mm from green's H'.
 Plot colour_diagram(const LensField& field, const std::array<Bundle, 3>& light, double depth, double from_vertex) {
     Plot plot{fmt::format("spot_colour_{}", field.name),
-              fmt::format("Colours of the spot, {}, {:.4g} mm in front of the lenses", field.title, depth + from_vertex),
+              fmt::format("Colours of the spot, {}, {}", field.title, depth_in_words(depth + from_vertex)),
               "mm",
               "mm",
               {},
@@ -117,10 +118,9 @@ void tell_colours(const Subject& s, const std::vector<LensField>& fields, Result
             result.note(fmt::format("colour.lateral.{}", lateral.size() - 1), "no light of this panel point gets through the lens");
             continue;
         }
-        result.add_line({red, blue},
-                        {.label = fmt::format("Lateral colour, {}: red and blue from green", field.title),
-                         .unit = "mm",
-                         .remark = fmt::format("centroids of spots {:.4g} mm in front of the lenses", depth + from_vertex)});
+        result.add_line({red, blue}, {.label = fmt::format("Lateral colour, {}: red and blue from green", field.title),
+                                      .unit = "mm",
+                                      .remark = fmt::format("centroids of spots {}", depth_in_words(depth + from_vertex))});
         result.plots.push_back(colour_diagram(field, shown, depth, from_vertex));
     }
     result.tables.push_back(std::move(table));

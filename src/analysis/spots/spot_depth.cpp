@@ -5,6 +5,7 @@
 #include "analysis/core/estimate.h"
 #include "analysis/core/figure_json.h"
 #include "base/constants.h"
+#include "checks/depth_words.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/resolve.h"
 #include "geometry/sharp_range.h"
@@ -130,9 +131,9 @@ class Teller {
             found.missing = fan.all.empty()
                                 ? "no light of the panel's point on the axis gets through the lens"
                                 : fmt::format(
-                                      "the spot is nowhere as narrow as a panel pixel's image; it comes nearest to that {} mm "
-                                      "in front of the lenses, where it is {:.4g} pixel images wide",
-                                      text_mm(depths.best_per_mm), depths.least_width / pixel_slope_);
+                                      "the spot is nowhere as narrow as a panel pixel's image; it comes nearest to that {}, "
+                                      "where it is {:.4g} pixel images wide",
+                                      place(depths.best_per_mm), depths.least_width / pixel_slope_);
             result_.add(diopters, FigureValue::none(found.missing));
             found.range = found.least = found.most = range_of_inverse(geometry_, nan, nan, eye_mm_);
         } else {
@@ -182,10 +183,10 @@ class Teller {
         for (const double other : {least, most}) error = std::max(error, std::isnan(other) ? std::abs(at) : std::abs(at - other));
         return error;
     }
-    /// Returns a depth, given as 1/z from H', as text in mm from the vertex plane.
-    std::string text_mm(double per_mm) const {
+    /// Returns a depth, given as 1/z from H', as text.
+    std::string place(double per_mm) const {
         const double z = depth_mm(per_mm) + geometry_.rear_principal_mm - geometry_.vertex_plane_mm;
-        return std::isinf(z) ? "infinitely many" : fmt::format("{:.4g}", z);
+        return std::isinf(z) ? "at infinity" : depth_in_words(z);
     }
 
     const Geometry& geometry_;

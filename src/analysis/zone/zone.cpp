@@ -50,7 +50,10 @@ void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const st
         const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
         // Theory's pitch is the distance of rows; a hexagon's image has a corner above its middle, beyond that.
         const bool corner = axis == 1 && s.display().array.lattice == LatticeKind::hexagon;
-        result.figures[name]["theory_deg"] = corner ? Json() : Json{0 - theory, theory};
+        result.add(
+            name + ".theory_deg",
+            corner ? FigureValue::none("theory is of images cut by rows; those of hexagons have a corner beyond the rows' middle")
+                   : FigureValue(std::vector{0 - theory, theory}));
         for (const std::size_t t : {0u, 1u}) {
             const Interval& mm = zone.limits[t];
             const Interval deg = mapped(mm, degrees);
