@@ -62,7 +62,7 @@ Done render_on_cpu(Kernel kernel, int threads, Work& work, Job& job) {
     return on_threads(threads, [&] {
         return for_tiles(work.tile, job, [&](const Tile& tile) -> std::optional<std::int64_t> {
             if (work.target_error) return refine_tile(kernel, tile, *work.target_error, work.result.error.rgb.data(), job);
-            kernel(tile);
+            if (!kernel(tile)) return {};
             return std::int64_t(tile.x1 - tile.x0) * (tile.y1 - tile.y0) *
                    (tile.strata > 0 ? tile.strata * tile.strata : std::int64_t(tile.samples));
         });
@@ -236,20 +236,20 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
     const std::vector<EvenPart> parts = even_parts(display);
     const auto at_wavelength = [&](const Geometry& there) {
         if (device.gpu) {
-            Work work(by_points(display), there, planes, options);
+            Work work(by_points(display), there, planes, options, job);
             begin_stage(work, 1, job);
             if (auto one = render_points_on_gpu(work, device, summed, planes, options, job)) return *std::move(one);
             return render(work, kernel.name, kernel.run, options, job);  // by points, too: the same bits as on the GPU
         }
         if (estimator_of(display) == Estimator::filtered && !options.rough) {
-            EstimatorChoice choice(display, there, planes, options);
+            EstimatorChoice choice(display, there, planes, options, job);
             begin_stage(choice.work(), 1, job);
             return render_chosen(choice, kernel.name, kernel.run, options, job);
         }
         Sum sum;
         float weight = 0;
         for (const EvenPart& part : parts) {
-            Work work(part.display, there, planes, options);
+            Work work(part.display, there, planes, options, job);
             if (&part == &parts.front()) begin_stage(work, parts.size(), job);
             Rendering one = render(work, kernel.name, kernel.run, options, job);
             if (parts.size() == 1) return one;
@@ -273,7 +273,7 @@ Rendering render(const Display& display, const Geometry& geometry, const std::ve
 Rendering render_with(const Tracer& tracer, const Display& display, const Geometry& geometry,
                       const std::vector<optics::SummedImage>& planes, const RenderOptions& options, Job& job) {
     check_threads(options);
-    Work work(display, geometry, planes, options);
+    Work work(display, geometry, planes, options, job);
     work.tile.display = &tracer.scene;
     begin_stage(work, 1, job);
     return render(work, tracer.name, tracer.run, options, job);

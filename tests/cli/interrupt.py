@@ -1,6 +1,7 @@
 """Ctrl-C, SIGTERM, SIGHUP: the first ends the work and keeps what is complete, marked; a second ends the program at once."""
 import json
 import signal
+import subprocess
 import time
 
 import numpy as np
@@ -56,13 +57,26 @@ process.send_signal(signal.SIGHUP)
 process.communicate(timeout=120)
 checks.that(process.returncode == 0, f"SIGHUP under nohup: exit code {process.returncode}, wanted 0")
 
+# The most samples: a single pixel takes many seconds.
+for command in ["render tiny.toml --panel-image white.png --estimator point", "photo tiny.toml --set camera.pupil_diameter_mm=4"]:
+    process = program.start(f"{command} --size 640x360 --samples 16777216 -o most.png --progress none")
+    time.sleep(1)
+    sent = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    try:
+        out, err = process.communicate(timeout=10)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        out, err = process.communicate()
+    checks.that(process.returncode == 130 and "most.png" in err and "marked incomplete" in err,
+                f"{command}: exit code {process.returncode} after {time.monotonic() - sent:.1f} s: {err}")
+
 before = program.files()
 process = program.start(f"{LONG} --samples 10000000 -o never.png")
 time.sleep(1)
-process.send_signal(signal.SIGINT)
-time.sleep(0.2)
 sent = time.monotonic()
 process.send_signal(signal.SIGINT)
+process.send_signal(signal.SIGTERM)
 process.communicate(timeout=60)
 checks.that(process.returncode == 130, f"two signals: exit code {process.returncode}, wanted 130")
 checks.that(time.monotonic() - sent < 10, f"two signals: it ended after {time.monotonic() - sent:.1f} s")

@@ -1,4 +1,6 @@
 // The reference photograph of things whose pictures are known.
+#include <atomic>
+
 #include "small_world.h"
 
 namespace {
@@ -209,6 +211,23 @@ TEST(Photograph, SampledPixelsAreReproducible) {
     EXPECT_NE(photo_of(d, model).image.rgb, full.image.rgb);
     d.render.sampling = Sampling::random;
     EXPECT_NE(photo_of(d, model).image.rgb, full.image.rgb);
+}
+
+// Whatever the number of samples, cancelling takes effect within a pixel.
+TEST(Photograph, StopsWithinAPixel) {
+    struct Cancelled : Job {
+        bool cancelled() const override { return ++asked > 2; }
+        mutable std::atomic<int> asked{0};
+    } job;
+    Folder folder;
+    Display d = display();
+    d.camera.pupil_diameter_mm = 30;
+    d.render.samples = 1 << 24;
+    const Geometry g = resolve(d);
+    const ContentScene scene(load_model(write_patches(folder, {{-8, 8, -10, 10, 0, "white"}})), d, g);
+    const Picture stopped = reference_photograph(d, g, scene, 1, Rect{120, 80, 121, 81}, job);
+    EXPECT_FALSE(stopped.complete);
+    EXPECT_EQ(stopped.image.rgb, std::vector<float>(3, 0));
 }
 
 }  // namespace

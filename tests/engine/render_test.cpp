@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 
 #include "pictures.h"
 
@@ -187,6 +188,67 @@ TEST(Cancelling, KeepsWhatIsComplete) {
             pixels += k % 3 == 0 && r.image.rgb[k] == whole.rgb[k];
         }
         EXPECT_GE(pixels, job.done);
+    }
+}
+
+/// Cancels at the question with this number.
+struct CancelsAt : Job {
+    explicit CancelsAt(int question) : at(question) {}
+    bool cancelled() const override { return ++asked >= at; }
+    const int at;
+    mutable std::atomic<int> asked{0};
+};
+
+// Whatever the number of samples, cancelling takes effect within a tile; pixels are then finished or black.
+TEST(Cancelling, TakesEffectWithinATile) {
+    Display d = example();
+    d.diffuser = Diffuser{40, {3, 3}, Profile::box};
+    const Texels panel = noise_panel(d);
+    const auto stops = [&](const std::string& kernel, const Rect& crop) {
+        SCOPED_TRACE(kernel + " " + std::to_string(int(d.render.estimator)));
+        const RenderOptions options{1, kernel, crop, {}, "cpu"};
+        CancelsAt never(std::numeric_limits<int>::max());
+        const Image whole = render(d, resolve(d), panel, options, never).image;
+        bool partly = false;
+        for (int k = 1; k <= 5; ++k) {
+            const int question = never.asked * k / 5;
+            CancelsAt job(question);
+            const Rendering r = render(d, resolve(d), panel, options, job);
+            ASSERT_FALSE(r.complete) << question;
+            std::size_t finished = 0;
+            for (std::size_t i = 0; i < whole.rgb.size(); ++i) {
+                ASSERT_TRUE(r.image.rgb[i] == whole.rgb[i] || r.image.rgb[i] == 0) << question;
+                finished += r.image.rgb[i] == whole.rgb[i] && whole.rgb[i] != 0;
+            }
+            partly = partly || (finished > 0 && finished < whole.rgb.size() * 9 / 10);
+        }
+        EXPECT_TRUE(partly);
+    };
+    const Rect tile{64, 48, 128, 64};
+    d.render.estimator = Estimator::point;
+    d.render.samples = 600;
+    for (const std::string kernel : {"scalar", "baseline", ""}) stops(kernel, tile);
+    d.render.samples = 576;
+    d.render.estimator = Estimator::filtered;
+    stops("", tile);
+    d.render.estimator = Estimator::lens_by_lens;
+    stops("", tile);
+    d.render.estimator = Estimator::filtered;
+    d.diffuser->profile = Profile::gaussian;
+    stops("", {60, 48, 132, 70});
+}
+
+// A single pixel of the most samples takes seconds.
+TEST(Cancelling, TakesEffectWithinAPixel) {
+    Display d = example();
+    d.diffuser = Diffuser{40, {3, 3}, Profile::box};
+    d.render.estimator = Estimator::point;
+    d.render.samples = 1 << 24;
+    for (const std::string kernel : {"scalar", ""}) {
+        CancelsAt job(3);
+        const Rendering r = render(d, resolve(d), noise_panel(d), {1, kernel, Rect{70, 50, 71, 51}, {}, "cpu"}, job);
+        EXPECT_FALSE(r.complete) << kernel;
+        EXPECT_EQ(r.image.rgb, std::vector<float>(3, 0)) << kernel;
     }
 }
 

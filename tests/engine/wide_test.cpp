@@ -42,7 +42,7 @@ Rendering by_host(const Display& d, const Texels& panel, const RenderOptions& op
     const SummedPanel summed(panel);
     const Geometry geometry = resolve(d);
     const auto& planes = planes_of(summed, panel_reading(d));
-    Work work(d, geometry, planes, options);
+    Work work(d, geometry, planes, options, job);
     work.make_pictures(options.target_error.has_value());
     const wide::DevicePanel there(queue, planes[0]);
     const Done done = wide::render(queue, there, work.tile, work.target_error, work.result.error.rgb.data(), job);
@@ -101,7 +101,7 @@ TEST(Wide, StopsWhenAskedAndLeavesTheRestBlack) {
     const SummedPanel summed(panel);
     HostQueue queue;
     queue.points = 7 * 256 * *d.render.samples;  // of seven squares
-    Work work(d, resolve(d), planes_of(summed), {});
+    Work work(d, resolve(d), planes_of(summed), {}, job);
     work.make_pictures(false);
     const wide::DevicePanel there(queue, planes_of(summed)[0]);
     EXPECT_FALSE(wide::render(queue, there, work.tile, {}, nullptr, job).complete);
@@ -151,7 +151,7 @@ TEST(Wide, LikenessHasTheSameBits) {
         Job job;
         const wide::DevicePanel there(queue, planes_of(summed)[0]);
         const wide::Photograph photograph(queue, expected.photograph());
-        const Work work(d, resolve(d), planes_of(summed), options);
+        const Work work(d, resolve(d), planes_of(summed), options, job);
         wide::ViewComparison comparison(queue, photograph, expected.screen, expected.content);
         const wide::Buffer<float> seen(queue, view.rgb.size());
         EXPECT_TRUE(wide::render_there(queue, there, work.tile, seen.get(), job).complete);

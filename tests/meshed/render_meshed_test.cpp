@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdio>
 
 #include "../engine/pictures.h"
@@ -256,15 +257,22 @@ TEST(RenderMeshed, RefusesWhatItDoesNotCover) {
 }
 
 struct Stopped : Job {
-    bool cancelled() const override { return true; }
+    explicit Stopped(int question) : at(question) {}
+    bool cancelled() const override { return ++asked >= at; }
+    const int at;
+    mutable std::atomic<int> asked{0};
 };
 
 TEST(RenderMeshed, CanBeStopped) {
-    const Display d = example();
+    Display d = example();
+    d.diffuser = Diffuser{40, {3, 3}, Profile::box};
+    d.render.samples = 1 << 24;
     const Geometry g = resolve(d);
-    Stopped job;
-    const Rendering r = render_meshed(d, g, noise_panel(d), MeshedLens(d, g, 860, LensNormals::flat), {1, "", {}}, job);
-    EXPECT_FALSE(r.complete);
+    for (const int question : {1, 3}) {  // before the first tile, and within a pixel
+        Stopped job(question);
+        const Rendering r = render_meshed(d, g, noise_panel(d), MeshedLens(d, g, 860, LensNormals::flat), {1, "", {}}, job);
+        EXPECT_FALSE(r.complete);
+    }
 }
 
 }  // namespace

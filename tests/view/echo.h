@@ -16,15 +16,18 @@ namespace lfdsim::view {
 
 /// What became of the visitors of one server.
 struct Guests {
-    std::atomic<int> made{0}, destroyed{0}, at_work{0}, destroyed_at_work{0};
+    std::atomic<int> made{0}, leaving{0}, destroyed{0}, at_work{0}, destroyed_at_work{0};
 };
 
-/// "texts N BYTES" and "frames N BYTES" send N of them, "sleep MS" works for a while, "malformed" is none, "throw" fails; anything
+/// "texts N BYTES" and "frames N BYTES" send N of them, "sleep MS" works for a while, "linger MS" takes that
+/// long to be destroyed, "malformed" is none, "throw" fails; anything
 /// else comes back.
 class Echo : public Visitor {
   public:
     Echo(Outbox& outbox, Guests& guests) : outbox_(outbox), guests_(guests) { ++guests_.made; }
     ~Echo() override {
+        ++guests_.leaving;
+        std::this_thread::sleep_for(std::chrono::milliseconds(linger_ms_));
         ++guests_.destroyed;
         if (working_) ++guests_.destroyed_at_work;
         outbox_.text("the outbox outlives the visitor");
@@ -47,6 +50,8 @@ class Echo : public Visitor {
             for (int k = 0; k < count; ++k) outbox_.frame("lane", std::to_string(k) + std::string(std::size_t(bytes), ' '));
         else if (std::sscanf(copy.c_str(), "sleep %d", &count) == 1)
             std::this_thread::sleep_for(std::chrono::milliseconds(count));
+        else if (std::sscanf(copy.c_str(), "linger %d", &count) == 1)
+            linger_ms_ = count;
         else if (text == "malformed" || text.empty())
             throw InputError("", "that is no \"message\"");
         else if (text == "throw")
@@ -58,6 +63,7 @@ class Echo : public Visitor {
   private:
     Outbox& outbox_;
     Guests& guests_;
+    std::atomic<int> linger_ms_ = 0;
     std::atomic<bool> working_ = false;
 };
 

@@ -223,6 +223,21 @@ TEST(Server, VisitorIsDestroyedOnceAndNotAtWork) {
     EXPECT_EQ(f.guests.destroyed_at_work, 0);
 }
 
+TEST(Server, VisitorThatLingersHoldsUpNobody) {
+    Fixture f;
+    Browser stays(*f.server);
+    {
+        Browser leaves(*f.server);
+        leaves.say("linger 700");
+        EXPECT_EQ(leaves.ask("heard"), "heard");
+    }
+    ASSERT_TRUE(soon([&] { return f.guests.leaving == 1; }));
+    std::this_thread::sleep_for(50ms);
+    EXPECT_EQ(stays.ask("there"), "there");
+    EXPECT_EQ(Browser(*f.server).ask("new"), "new");
+    EXPECT_EQ(f.guests.destroyed, 0) << "while the first lingers";
+}
+
 TEST(Server, MostVisitors) {
     ServerOptions few = options();
     few.most_visitors = 2;

@@ -33,7 +33,7 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
         throw InputError("crop", "it must lie inside the frame, which has " + std::to_string(width) + " x " +
                                      std::to_string(height) + " pixels");
     if (threads < 0 || threads > 4096) throw InputError("threads", std::to_string(threads) + " given; allowed are 0 (all) to 4096");
-    constexpr int tile = 64;
+    constexpr int tile = 64, often = 1 << 10;  // packets between questions whether the job was cancelled: milliseconds
     const int columns = (crop.x1 + tile - 1) / tile - crop.x0 / tile, rows = (crop.y1 + tile - 1) / tile - crop.y0 / tile;
     const auto start = std::chrono::steady_clock::now();
     Picture out{Image(crop.x1 - crop.x0, crop.y1 - crop.y0), true, 0, 0};
@@ -41,16 +41,12 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
     std::atomic<bool> stopped{false};
     const auto one_tile = [&](int tile_column, int tile_row) {
         const int x0 = (crop.x0 / tile + tile_column) * tile, y0 = (crop.y0 / tile + tile_row) * tile;
-        std::int64_t count = 0, count_dark = 0;
+        std::int64_t count = 0, count_dark = 0, since_asked = 0;
         RayBlock block;
         Lanes::Mask wanted;
         double sum[3][RayBlock::lanes];                            // light of the samples that hit
         int summed[3][RayBlock::lanes], lost[3][RayBlock::lanes];  // numbers of samples that exist, and that are dark
         for (int y = y0; y < y0 + tile; y += RayBlock::side) {
-            if (samples > 1 && job.cancelled()) {  // a tile of many samples may take long
-                stopped = true;
-                break;
-            }
             for (int x = x0; x < x0 + tile; x += RayBlock::side) {
                 if (y + RayBlock::side <= crop.y0 || y >= crop.y1 || x + RayBlock::side <= crop.x0 || x >= crop.x1) continue;
                 // Blocks at the crop's border have pixels outside of it, which are computed but not kept.
@@ -59,6 +55,13 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
                 std::fill_n(summed[0], 3 * RayBlock::lanes, 0);
                 std::fill_n(lost[0], 3 * RayBlock::lanes, 0);
                 for (block.sample = 0; block.sample < samples; ++block.sample) {
+                    if (++since_asked == often) {  // a tile of many samples may take long
+                        since_asked = 0;
+                        if (job.cancelled()) {
+                            stopped = true;
+                            return;
+                        }
+                    }
                     fill(x, y, block);
                     // Pixels beyond the frame have no rays.
                     if (!inside) {

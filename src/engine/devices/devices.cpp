@@ -1,5 +1,6 @@
 #include "engine/devices/devices.h"
 
+#include "base/job.h"
 #include "engine/devices/gpu.h"
 
 #include <charconv>
@@ -31,6 +32,8 @@ constexpr KernelEntry all_kernels[] = {
 };
 
 }  // namespace
+
+bool is_cancelled(const Job& job) { return job.cancelled(); }
 
 std::vector<KernelInfo> kernels() {
     std::vector<KernelInfo> all;

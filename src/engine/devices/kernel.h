@@ -6,6 +6,8 @@
 
 namespace lfdsim {
 
+class Job;
+
 /// Where a ray ends on the panel.
 struct PanelRay {
     std::uint32_t place;  // panel pixel, row x columns + column; with subpixels four times that plus the one lit channel (3: all)
@@ -30,7 +32,8 @@ struct Tile {
     int block_side;         // of these: pixels, 16, 8 or 4
     bool cuts_pixel;        // lens by lens: outlines of lenses cut the pixel's area, not the diffuser's angles
     Sampling sampling;
-    int dimensions;  // number of the sampler's dimensions in use
+    int dimensions;            // number of the sampler's dimensions in use
+    const Job* job = nullptr;  // if given, is asked on the way whether it was cancelled
 };
 
 /// The side, pixels, of the squares of the frame that are rendered until their error is small enough (refine.h).
@@ -51,13 +54,17 @@ constexpr int few_strata = 8;   // up to this number along an axis the filtered 
 /// larger one if it needs more. Throws std::bad_alloc.
 void* block_memory(std::size_t bytes);
 
-/// A function that renders a tile on the calling thread. All kernels give the same bits.
-using Kernel = void (*)(const Tile&);
+/// Returns whether a job was cancelled: for kernels, which do not include the class.
+bool is_cancelled(const Job&);
+
+/// A function that renders a tile on the calling thread. All kernels give the same bits. Returns false where the tile's job was
+/// cancelled on the way: pixels that were not finished are then as they were.
+using Kernel = bool (*)(const Tile&);
 
 // The kernels of the instruction sets; which are compiled in: kernels.cmake.
-void render_tile_scalar(const Tile&);
-void render_tile_baseline(const Tile&);
-void render_tile_avx2(const Tile&);
-void render_tile_avx512(const Tile&);
+bool render_tile_scalar(const Tile&);
+bool render_tile_baseline(const Tile&);
+bool render_tile_avx2(const Tile&);
+bool render_tile_avx512(const Tile&);
 
 }  // namespace lfdsim

@@ -167,14 +167,14 @@ std::size_t best_of(const std::vector<FilteredError>& errors) {
 }  // namespace
 
 EstimatorChoice::EstimatorChoice(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
-                                 const RenderOptions& options)
-    : points_(by_points(display), geometry, panel, options) {
+                                 const RenderOptions& options, const Job& job)
+    : points_(by_points(display), geometry, panel, options, job) {
     points_.result.estimator = Estimator::filtered;
     const auto try_with = [&](std::int64_t samples) {
         Display tried = display;
         tried.render.samples = samples;
         filtered_.emplace_back();
-        for (const EvenPart& part : even_parts(tried)) filtered_.back().emplace_back(part, geometry, panel, options);
+        for (const EvenPart& part : even_parts(tried)) filtered_.back().emplace_back(part, geometry, panel, options, job);
     };
     if (options.target_error) {
         for (const int samples : {4, 16, 64}) try_with(samples);
@@ -280,10 +280,10 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
     return choice;
 }
 
-std::int64_t EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, const Tile& of) const {
+std::optional<std::int64_t> EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, const Tile& of) const {
     const std::int64_t pixels = std::int64_t(of.x1 - of.x0) * (of.y1 - of.y0);
     std::int64_t samples = 0;
-    // Renders the tile of a work, with its scene, to the place of the tile `of`.
+    // Renders the tile of a work, with its scene, to the place of the tile `of`; returns false where the job was cancelled.
     const auto run = [&](const Work& work, std::uint32_t points) {
         Tile tile = work.tile;
         tile.out = of.out;
@@ -292,16 +292,13 @@ std::int64_t EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, 
         tile.x1 = of.x1;
         tile.y1 = of.y1;
         tile.samples = points;
-        kernel(tile);
         samples += pixels * (tile.strata > 0 ? tile.strata * tile.strata : std::int64_t(points));
+        return kernel(tile);
     };
-    if (choice.filtered < 0) {
-        run(points_, choice.points);
-        return samples;
-    }
+    if (choice.filtered < 0) return run(points_, choice.points) ? std::optional(samples) : std::nullopt;
     const Filtered& filtered = *std::next(filtered_.begin(), choice.filtered);
     if (filtered.size() == 1) {
-        run(filtered.front().work, 0);
+        if (!run(filtered.front().work, 0)) return {};
     } else {
         // The weighted sum of the pictures that a gaussian diffuser consists of, each of which is rendered to the tile in turn
         const std::size_t width = std::size_t(of.x1 - of.x0) * 3;
@@ -310,7 +307,10 @@ std::int64_t EstimatorChoice::render(Kernel kernel, const RegionChoice& choice, 
             return of.out + (std::int64_t(y - of.crop_y) * of.crop_width + of.x0 - of.crop_x) * 3;
         };
         for (const Part& part : filtered) {
-            run(part.work, 0);
+            if (!run(part.work, 0)) {
+                for (std::int32_t y = of.y0; y < of.y1; ++y) std::fill_n(row(y), width, 0.f);
+                return {};
+            }
             for (std::int32_t y = of.y0; y < of.y1; ++y)
                 for (std::size_t k = 0; k < width; ++k) sum[std::size_t(y - of.y0) * width + k] += part.weight * row(y)[k];
         }

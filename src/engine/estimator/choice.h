@@ -27,8 +27,9 @@ class EstimatorChoice {
   public:
     static constexpr int region_side = 256;  // pixels of the frame
 
-    /// Throws what Work throws.
-    EstimatorChoice(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
+    /// Throws what Work throws. When the job is cancelled, look(), choose() and render() return soon.
+    EstimatorChoice(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&,
+                    const Job&);
 
     /// Returns the picture by points; its result is that of the whole picture.
     Work& work() { return points_; }
@@ -39,8 +40,9 @@ class EstimatorChoice {
     /// Returns the choice for the region in this column and row of regions, counted from the frame's first. It depends neither on
     /// the crop nor on what is chosen elsewhere. May be called by several threads.
     RegionChoice choose(Kernel, int column, int row) const;
-    /// Renders a tile that lies in a region by anything but a target error; returns the samples taken.
-    std::int64_t render(Kernel, const RegionChoice&, const Tile&) const;
+    /// Renders a tile that lies in a region by anything but a target error; returns the samples taken, or nothing where the
+    /// job was cancelled on the way.
+    std::optional<std::int64_t> render(Kernel, const RegionChoice&, const Tile&) const;
 
   private:
     using PixelColours = std::vector<float>;  // three numbers a pixel
@@ -49,8 +51,8 @@ class EstimatorChoice {
     /// gaussian diffuser one for each box that it consists of.
     struct Part {
         Part(const EvenPart& of, const Geometry& geometry, const std::vector<optics::SummedImage>& panel,
-             const RenderOptions& options)
-            : work(of.display, geometry, panel, options), weight(of.weight) {}
+             const RenderOptions& options, const Job& job)
+            : work(of.display, geometry, panel, options, job), weight(of.weight) {}
         Work work;
         float weight;
     };

@@ -6,6 +6,7 @@
 #include "engine/estimator/panel_light.h"
 #include "engine/estimator/shared_footprint.h"
 #include "engine/estimator/strata.h"
+#include "engine/kernels/cancelling.h"
 #include "engine/kernels/filtered_axis.h"
 #include "engine/kernels/filtered_footprints.h"
 #include "engine/kernels/lens_by_lens.h"
@@ -305,11 +306,16 @@ class FilteredEstimator {
 };
 
 /// Renders a tile by the filtered estimator. Not inlined, so that its stack frame is separate.
-__attribute__((noinline)) void render_filtered(const Tile& tile) {
+__attribute__((noinline)) bool render_filtered(const Tile& tile) {
     FilteredEstimator estimator(tile);
+    Cancelling cancelling(tile);
     const std::int32_t side = tile.block_side;
     for (std::int32_t y = tile.y0 / side * side; y < tile.y1; y += side)
-        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) estimator.render(side, x, y);
+        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) {
+            if (cancelling.ends_before(std::int64_t(tile.strata) * tile.strata * side * side)) return false;
+            estimator.render(side, x, y);
+        }
+    return true;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "engine/estimator/limits.h"
 #include "engine/estimator/panel_covariance.h"
 #include "engine/estimator/panel_light.h"
+#include "engine/kernels/cancelling.h"
 #include "engine/kernels/visible_lenses.h"
 
 namespace lfdsim {
@@ -290,11 +291,16 @@ class LensByLens : VisibleLenses {
 };
 
 /// Renders a tile lens by lens. Not inlined, so that its stack frame is separate.
-__attribute__((noinline)) void render_lens_by_lens(const Tile& tile) {
+__attribute__((noinline)) bool render_lens_by_lens(const Tile& tile) {
     LensByLens estimator(tile, *new (block_memory(sizeof(LensByLensMemory))) LensByLensMemory);
+    Cancelling cancelling(tile);
     constexpr std::int32_t side = optics::shared_width;
     for (std::int32_t y = tile.y0 / side * side; y < tile.y1; y += side)
-        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) estimator.render(x, y);
+        for (std::int32_t x = tile.x0 / side * side; x < tile.x1; x += side) {
+            if (cancelling.ends_before(std::int64_t(tile.strata) * tile.strata * side * side)) return false;
+            estimator.render(x, y);
+        }
+    return true;
 }
 
 }  // namespace

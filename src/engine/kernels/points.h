@@ -2,6 +2,7 @@
 // Part of tile.h's source, compiled for each instruction set. Floor 2.
 #pragma once
 #include "engine/devices/kernel.h"
+#include "engine/kernels/cancelling.h"
 #include "optics/light.h"
 #include "optics/trace.h"
 
@@ -21,8 +22,9 @@ LFDSIM_APART optics::PanelHit<F> trace_one(const Tile& tile, const optics::Pixel
 /// Returns the sum of a pixel's samples, for a GPU's thread: there other threads hide latency, while registers, and code that does
 /// not fit into the cache of instructions, are costly. So one loop, with none inside it, traces all samples. They are added in the
 /// order of gather(). It does not call trace_one(), which would keep the sampler out of the registers.
-template <optics::Facts facts, bool sobol>
-LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<F>& pixels, std::uint32_t pixel) {
+template <optics::Facts facts, bool sobol, class MayEnd>
+LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<F>& pixels, std::uint32_t pixel,
+                                      MayEnd& cancelling) {
     const optics::TracedDisplay<float>& display = *tile.display;
     optics::Sampler<F> sampler(sobol ? Sampling::sobol : tile.sampling,
                                facts.plain_light == optics::Known::yes ? 2 : tile.dimensions, tile.view->seed, pixel);
@@ -43,6 +45,7 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
         if ((k + 1) % block_samples == 0 || k + 2 >= tile.samples) {  // the last of an odd number is a separate block
             total.add(block);
             block = {};
+            if (cancelling.ends_before(block_samples)) break;
         }
     }
     return total;
@@ -50,10 +53,11 @@ LFDSIM_FN optics::Light<F> gather_one(const Tile& tile, const optics::PixelRays<
 
 /// Returns the sum of the samples of a packet's pixels. Lanes are neighbouring pixels, and each adds its samples in order, two at a
 /// time, so that no bit depends on the packet a pixel is in. The light of two samples is fetched while the next two, traced side by
-/// side (simd/pair.h), are on their way, so that memory latency is hidden.
+/// side (simd/pair.h), are on their way, so that memory latency is hidden. Where `cancelling` ends, the sum is unfinished.
 template <optics::Facts facts>
-LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel) {
-    if constexpr (optics::LaneTraits<F>::width == 1) return gather_one<facts, false>(tile, pixels, pixel);
+LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& pixels, optics::Uint<F> pixel,
+                                  Cancelling& cancelling) {
+    if constexpr (optics::LaneTraits<F>::width == 1) return gather_one<facts, false>(tile, pixels, pixel, cancelling);
     const optics::TracedDisplay<float>& display = *tile.display;
     optics::Sampler<F> even(tile.sampling, tile.dimensions, tile.view->seed, pixel), odd = even;
     odd.next(*tile.directions);
@@ -63,6 +67,7 @@ LFDSIM_FN optics::Light<F> gather(const Tile& tile, const optics::PixelRays<F>& 
         optics::Light<F> block;
         optics::Fetch<F> first, second;  // of the last two samples
         const std::uint32_t end = tile.samples - sample < block_samples ? tile.samples : sample + block_samples;
+        if (cancelling.ends_before(std::int64_t(end - sample) * optics::Block<F>::lanes)) break;
         for (; sample + 1 < end; sample += 2) {
             const auto hit = optics::trace<facts>(display, *tile.view, twice, optics::SamplerPair<F>{even, odd});
             block.add(display.emission, tile.texels, first, second);

@@ -54,8 +54,9 @@ LFDSIM_APART void keep_rays(const Tile& tile, const optics::PixelRays<F>& pixels
 
 /// Renders a tile by points, packet by packet. A packet's pixels that lie outside the tile are traced, too, but not written.
 template <optics::Facts facts>
-void render_points(const Tile& tile) {
+bool render_points(const Tile& tile) {
     using Block = optics::Block<F>;
+    Cancelling cancelling(tile);
     std::uint32_t lane[Block::lanes];  // number of the lane's pixel in the frame, minus that of the block's first
     for (int k = 0; k < Block::lanes; ++k) lane[k] = std::uint32_t(k / Block::width * tile.view->width + k % Block::width);
     for (std::int32_t y = tile.y0 / Block::height * Block::height; y < tile.y1; y += Block::height) {
@@ -64,10 +65,12 @@ void render_points(const Tile& tile) {
                 optics::load<F>(lane) + optics::Uint<F>(std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
             const optics::PixelRays<F> pixels = optics::pixel_rays<F>(*tile.view, x, y);
             if (tile.rays) {
+                if (cancelling.ends_before(std::int64_t(tile.samples) * Block::lanes)) return false;
                 keep_rays<facts>(tile, pixels, pixel, x, y);
                 continue;
             }
-            const optics::Light<F> light = gather<facts>(tile, pixels, pixel);
+            const optics::Light<F> light = gather<facts>(tile, pixels, pixel, cancelling);
+            if (cancelling.ended()) return false;
             for (int k = 0; k < Block::lanes; ++k) {
                 const std::int32_t column = x + k % Block::width, row = y + k / Block::width;
                 if (column < tile.x0 || column >= tile.x1 || row < tile.y0 || row >= tile.y1) continue;
@@ -76,15 +79,16 @@ void render_points(const Tile& tile) {
             }
         }
     }
+    return true;
 }
 
 }  // namespace
 
 /// The kernel of this instruction set (engine/devices/kernel.h).
-void LFDSIM_KERNEL(const Tile& tile) {
+bool LFDSIM_KERNEL(const Tile& tile) {
     if (tile.strata > 0 && tile.lens_by_lens) return render_lens_by_lens(tile);
     if (tile.strata > 0) return render_filtered(tile);
-    optics::with_facts(*tile.display, [&]<optics::Facts facts>() { render_points<facts>(tile); });
+    return optics::with_facts(*tile.display, [&]<optics::Facts facts>() { return render_points<facts>(tile); });
 }
 
 }  // namespace lfdsim

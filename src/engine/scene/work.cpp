@@ -27,7 +27,7 @@ Rect checked_crop(const std::optional<Rect>& crop, const Camera& camera) {
 }  // namespace
 
 Work::Work(const Display& display, const Geometry& geometry, const std::vector<optics::SummedImage>& planes,
-           const RenderOptions& options) {
+           const RenderOptions& options, const Job& job) {
     if (planes[0].columns != display.panel.pixels[0] || planes[0].rows != display.panel.pixels[1]) {
         throw InputError("panel image", fmt::format("{} x {} pixels; the panel has {} x {}", planes[0].columns, planes[0].rows,
                                                     display.panel.pixels[0], display.panel.pixels[1]));
@@ -72,7 +72,8 @@ Work::Work(const Display& display, const Geometry& geometry, const std::vector<o
             .block_side = shape.side,
             .cuts_pixel = cuts_pixel(scene, view),
             .sampling = display.render.sampling,
-            .dimensions = dimensions};
+            .dimensions = dimensions,
+            .job = &job};
 }
 
 void Work::make_pictures(bool with_error) {

@@ -11,8 +11,9 @@ namespace lfdsim {
 
 /// What a kernel or a GPU needs to render a picture. Its tile points into it, so it is not copied.
 struct Work {
-    /// The panel's images must outlive the work. Throws InputError for a bad crop, target error, number of samples or panel size.
-    Work(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&);
+    /// The panel's images and the job must outlive the work. Throws InputError for a bad crop, target error, number of samples or
+    /// panel size.
+    Work(const Display&, const Geometry&, const std::vector<optics::SummedImage>& panel, const RenderOptions&, const Job&);
     Work(const Work&) = delete;
     Work& operator=(const Work&) = delete;
 

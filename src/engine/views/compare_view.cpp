@@ -25,7 +25,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
     const std::vector<optics::SummedImage>& planes = planes_of(panel, panel_reading(display));
-    const Work work(by_points(display), geometry, planes, options);
+    const Work work(by_points(display), geometry, planes, options, job);
     const Image& photograph = expected.photograph();
     const int width = work.tile.x1 - work.tile.x0, height = work.tile.y1 - work.tile.y0;
     if (photograph.width != width || photograph.height != height)

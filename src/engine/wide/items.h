@@ -22,6 +22,11 @@ namespace lfdsim::wide {
 
 namespace {
 
+/// Stands for Cancelling in a machine's threads, which cannot ask the job.
+struct Uncancellable {
+    LFDSIM_FN static bool ends_before(std::int64_t) { return false; }
+};
+
 /// A pixel of the frame, or of a square.
 struct Pixel {
     std::int32_t x, y;
@@ -66,7 +71,8 @@ LFDSIM_FN void point_item(const Frame& frame, std::int64_t i) {
     float* const out = output(frame, square, x, y);
     if (!out) return;
     const std::uint32_t number = std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x);
-    const optics::Light<F> light = gather_one<facts, sobol>(tile, optics::pixel_rays<F>(*tile.view, x, y), number);
+    Uncancellable to_the_end;
+    const optics::Light<F> light = gather_one<facts, sobol>(tile, optics::pixel_rays<F>(*tile.view, x, y), number, to_the_end);
     for (int c = 0; c < 3; ++c) out[c] = light(0, c) / float(tile.samples);
 }
 

@@ -2,6 +2,7 @@
 
 #include "display/colour.h"
 #include "display/keys.h"
+#include "engine/kernels/cancelling.h"
 #include "engine/scene/traced_display.h"
 #include "engine/scene/tracer.h"
 #include "geometry/lens_misalignment.h"
@@ -16,8 +17,9 @@ namespace lfdsim {
 namespace {
 
 /// Renders a tile, ray by ray: Embree's time for a ray is far more than packets would save.
-void render_tile(const Tile& tile) {
+bool render_tile(const Tile& tile) {
     const optics::TracedDisplay<float>& scene = *tile.display;
+    Cancelling cancelling(tile);
     for (std::int32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::int32_t x = tile.x0; x < tile.x1; ++x) {
             const auto pixel = optics::pixel_rays<float>(*tile.view, x, y);
@@ -25,6 +27,7 @@ void render_tile(const Tile& tile) {
                                            std::uint32_t(y) * std::uint32_t(tile.view->width) + std::uint32_t(x));
             double sum[3] = {};
             for (std::uint32_t sample = 0; sample < tile.samples; ++sample, sampler.next(*tile.directions)) {
+                if (cancelling.ends_before(1)) return false;
                 optics::Passage<float> passage{{}, {0, 0}, 1, pixel.alive};
                 optics::sample_ray(scene, *tile.view, pixel, sampler, passage.ray);
                 optics::to_first_vertex(scene, passage);
@@ -38,6 +41,7 @@ void render_tile(const Tile& tile) {
             for (int c = 0; c < 3; ++c) out[c] = float(sum[c] / tile.samples);
         }
     }
+    return true;
 }
 
 }  // namespace

@@ -182,6 +182,7 @@ void Session::visit(const Connect& connect) {
     }
     while (take()) {  // until end() has been called
     }
+    visitor.reset();  // on this thread: it may have to wait for work to stop
     post([](Session& s) {
         s.visit_.join();
         s.gone_();
