@@ -75,7 +75,7 @@ for name, arguments, *words in [
     ("an overlay", f"compare view.png eia.png {CORNERS} -o view.png", "view.png: is the same file as A"),
     ("a difference", f"compare view.png eia.png {CORNERS} --difference link.png", "link.png: is the same file as B"),
     ("two pictures of one name", f"compare view.png eia.png {CORNERS} -o x.png --difference x.png", "--overlay, --difference"),
-    ("a table of errors", "errors tiny.toml --set errors.table=lenses.csv -o lenses.csv", "lenses.csv: is the same file as the table of errors"),
+    ("a table of errors", "errors tiny.toml --set errors.table=lenses.csv -o lenses.csv", "lenses.csv: is the same file as errors.table"),
     ("a sheet", "sheet view.png eia.png -o view.png", "view.png: is the same file as IMAGE"),
 ]:
     checks.refused(program, name, arguments, *words)

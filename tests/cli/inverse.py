@@ -62,6 +62,9 @@ for options, names in BAD.items():
     code, _, words = program.run(f"eia small.toml --pickup inverse {options} -o bad.png")
     checks.that(code == 2 and names in words, f"{options}: exit code {code}, said {words!r}")
     checks.that(not (program.folder / "bad.png").exists(), f"{options}: wrote a picture")
+code, _, words = program.run("eia small.toml --pickup inverse --set content.inverse.start=eia.png -o eia.png")
+checks.that(code == 2 and "eia.png: is the same file as content.inverse.start, eia.png" in words, f"its own start: {words!r}")
+program.must("eia small.toml --set content.inverse.start=again.png -o again.png")  # not read without the inverse pick-up
 code, _, words = program.run("eia small.toml --levels 0.1,0.9 -o bad.png")
 checks.that(code == 2 and "--levels: is only for --pickup inverse" in words, f"levels of another pick-up: {words!r}")
 code, _, words = program.run("eia small.toml --pickup inverse -o few.png --set content.inverse.places=2 content.inverse.rays=4")

@@ -75,6 +75,13 @@ std::string toml_value(const KeyOption& option, const Option& value) {
     return fmt::format("\"{}\"", value.word());
 }
 
+/// Remembers the files that a display names and that are read: those of the inverse pick-up are not with another one.
+void remember_files(Display& display) {
+    visit_files(display, [&](const std::string& key, const std::string& file) {
+        if (!key.starts_with("content.inverse.") || display.content.pickup == PickupKind::inverse) remember_input(key, file);
+    });
+}
+
 }  // namespace
 
 const std::span<const KeyOption> camera_options = camera;
@@ -136,8 +143,7 @@ Display DisplayOptions::read(const std::string& path, const std::string& compare
     faults.of([&, &set = overrides, &places = written] {
         try {
             display = read_display(path, set);
-            for (const std::string& file : display.glass_catalogues) remember_input("a glass catalogue", file);
-            if (!display.errors.table.empty()) remember_input("the table of errors", display.errors.table);
+            remember_files(display);
         } catch (InputError& e) {
             for (Problem& p : e.problems)
                 if (const auto option = places.find(p.where); option != places.end()) p.where = option->second;

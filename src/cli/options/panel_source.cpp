@@ -36,7 +36,6 @@ PanelImageOption::Read PanelImageOption::read(const Display& display, Job& job) 
 }
 
 void ModelOption::apply(Display& display) const {
-    for (const ContentFile& file : content_files(display)) remember_input(file.image ? "an image" : "the model", file.path);
     if (!given()) return;
     if (path().empty()) throw InputError("--model", "the name is empty; give a mesh file or built-in:spheres");
     remember_input("the model", path());
