@@ -304,7 +304,7 @@ TEST_F(ViewsSourceTest, WritesWhatItReads) {
 
 TEST_F(ViewsSourceTest, BadDescriptions) {
     pictures(0, 6, "view_");
-    const std::string good = "schema = 1\ncolumns = 3\nrows = 2\nbaseline_mm = [10, 5]\n";
+    const std::string three = "schema = 1\ncolumns = 3\nrows = 2\n", good = three + "baseline_mm = [10, 5]\n";
     write("views.toml", good);
     EXPECT_EQ(refused(folder), "");
     for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
@@ -317,6 +317,13 @@ TEST_F(ViewsSourceTest, BadDescriptions) {
              {good + "view_cone_deg = 20\n", "give one of them"},
              {good + "camera_x_mm = [1, 2]\n", "give one of them"},
              {"schema = 1\ncolumns = 3\nrows = 2\ncamera_x_mm = [1, 2]\ncamera_y_mm = [1, 0]\n", "has 2 places"},
+             {three + "camera_x_mm = [nan, 0, 1]\ncamera_y_mm = [1, 0]\n", "views.toml:4:15: camera_x_mm element 0 is not finite"},
+             {three + "camera_x_mm = [1, 0, 2]\ncamera_y_mm = [1, 0]\n", "views.toml:4:15: camera_x_mm element 1 is 0, after 1;"},
+             {three + "camera_x_mm = [1, 2, 2e6]\ncamera_y_mm = [1, 0]\n",
+              "views.toml:4:15: camera_x_mm element 2 is 2000000, allowed"},
+             {three + "camera_x_mm = [1, 2, 3]\ncamera_y_mm = [0, 1]\n", "views.toml:5:15: camera_y_mm element 1 is 1, after 0;"},
+             {three + "camera_x_mm = [1, 2, 3]\ncamera_y_mm = [1, 0]\nview_cone_deg = 9\n",
+              "views.toml:6:17: view_cone_deg is one"},
              {good + "pictures = \"../view_*.png\"\n", "with one *"},
              {good + "pictures = \"view.png\"\n", "with one *"},
              {good + "pictures = \"other_*.png\"\n", "has no pictures"},
@@ -336,7 +343,17 @@ TEST_F(ViewsSourceTest, BadDescriptions) {
     // Possible each by itself, impossible together: cameras that look along the focus.
     write("views.toml", "schema = 1\ncolumns = 3\nrows = 2\nbaseline_mm = [1000, 5]\ndistance_mm = 20\nwidth_mm = 100\n");
     std::vector<std::string> notes;
-    EXPECT_THROW(placed(find_views(folder), {}, place, 1.5, notes), InputError);
+    const auto impossible = [&] {
+        try {
+            placed(find_views(folder), {}, place, 1.5, notes);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(impossible(), HasSubstr("views.toml:4:15: baseline_mm: puts cameras 1000 mm off axis"));
+    write("views.toml", three + "camera_x_mm = [-1, 0, 2000]\ncamera_y_mm = [1, 0]\ndistance_mm = 20\nwidth_mm = 100\n");
+    EXPECT_THAT(impossible(), HasSubstr("views.toml:4:15: camera_x_mm: puts cameras 2000 mm off axis"));
     EXPECT_THAT(refused(folder / "nowhere"), HasSubstr("no such folder or file"));
     fs::create_directory(folder / "empty");
     EXPECT_THAT(refused(folder / "empty"), HasSubstr("views.toml"));

@@ -173,7 +173,9 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
                 fmt::format("a view cone of {} degrees{}", of_display, place.view_cone_deg ? ", that of the display" : ""));
     }
     if (std::vector<Problem> faults = faults_of(grid); !faults.empty()) {
-        for (Problem& fault : faults) fault.where = source.name + ": " + fault.where;
+        const bool as_stated = !wish.baseline_mm && !wish.cone_deg && !source.cameras_key.empty();
+        for (Problem& fault : faults)
+            fault.where = as_stated && fault.where == "baseline_mm" ? source.cameras_key : source.name + ": " + fault.where;
         throw InputError(std::move(faults));
     }
     return grid;

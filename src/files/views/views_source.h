@@ -35,6 +35,7 @@ struct ViewsSource {
     DepthValue depth_value = DepthValue::distance;
     double depth_unit_mm = 1;                     // unit of the distances in depth maps
     std::vector<std::array<double, 2>> cameras;   // positions in the pictures' order, x right, y up; empty: not known
+    std::string cameras_key = {};                 // the key that states them, with its place: "views.toml:4:15: baseline_mm"
     bool in_mm = true;                            // the unit of these positions is mm; false: it is not known
     std::optional<double> cone_deg;               // angle that the cameras of a row span, in place of their positions
     std::optional<ConeCameras> cone;              // how they divide it; absent: `ends` of quilts, else `bins`

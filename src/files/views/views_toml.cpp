@@ -52,6 +52,8 @@ class ViewsReader {
         problems_.push_back({has(key) ? source_.place(key).text : source_.place("").text,
                              fmt::format("{} {}", key, fmt::format(what, std::forward<Values>(values)...))});
     }
+    /// Returns a key of the file with its place, "views.toml:4:15: baseline_mm".
+    std::string placed(std::string_view key) const { return fmt::format("{}: {}", source_.place(key).text, key); }
     template <class Value>
     bool read(std::string_view key, Value& value) {
         if (!has(key)) return false;
@@ -138,18 +140,38 @@ std::vector<fs::path> in_place(const fs::path& folder, const std::string& patter
     return placed;
 }
 
+/// Refuses positions of cameras along an axis that are no lengths, or that do not rise (direction 1) or fall (-1).
+void check_positions(ViewsReader& reader, std::string_view key, const std::vector<double>& places, int direction) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (!std::isfinite(places[k])) return reader.refuse(key, "element {} is not finite", k);
+        if (!any_length.contains(places[k]))
+            return reader.refuse(key, "element {} is {}, allowed is {}", k, places[k], any_length.text());
+        if (k > 0 && !(direction * (places[k] - places[k - 1]) >= shortest_mm))
+            return reader.refuse(key, "element {} is {}, after {}; positions go {}", k, places[k], places[k - 1],
+                                 direction > 0 ? "from left to right, so they rise" : "from top to bottom, so they fall");
+    }
+}
+
+/// Returns the greatest distance from the middle.
+double reach_of(const std::vector<double>& places) {
+    double reach = 0;
+    for (const double place : places) reach = std::max(reach, std::abs(place));
+    return reach;
+}
+
 /// Reads the cameras' positions, in one of three ways: a step, the x and y of all, or a view cone.
 void read_cameras(ViewsReader& reader, ViewsSource& source) {
     const bool places = reader.has("camera_x_mm") || reader.has("camera_y_mm");
     if (int(reader.has("baseline_mm")) + int(places) + int(reader.has("view_cone_deg")) > 1)
-        reader.refuse("baseline_mm",
-                      "is one of three ways to state the cameras' positions (the others: camera_x_mm with camera_y_mm, and "
+        reader.refuse(reader.has("baseline_mm") ? "baseline_mm" : "view_cone_deg",
+                      "is one of three ways to state the cameras' positions (baseline_mm, camera_x_mm with camera_y_mm, and "
                       "view_cone_deg); give one of them");
     std::array<double, 2> baseline{};
     if (reader.read("baseline_mm", baseline)) {
         for (const double step : baseline)
             if (!positive_length.contains(step)) reader.refuse("baseline_mm", "is {}, allowed is {}", step, positive_length.text());
         source.cameras = camera_places(even_places(source.columns, baseline[0]), even_places(source.rows, -baseline[1]));
+        source.cameras_key = reader.placed("baseline_mm");
     }
     if (places) {
         std::vector<double> x, y;
@@ -159,7 +181,10 @@ void read_cameras(ViewsReader& reader, ViewsSource& source) {
             reader.refuse("camera_x_mm", "has {} for {} of views", counted(x.size(), "place"), counted(source.columns, "column"));
         if (source.rows > 0 && int(y.size()) != source.rows)
             reader.refuse("camera_y_mm", "has {} for {} of views", counted(y.size(), "place"), counted(source.rows, "row"));
+        check_positions(reader, "camera_x_mm", x, 1);
+        check_positions(reader, "camera_y_mm", y, -1);
         source.cameras = camera_places(x, y);
+        source.cameras_key = reader.placed(reach_of(x) < reach_of(y) ? "camera_y_mm" : "camera_x_mm");
     }
     source.cone_deg = reader.number("view_cone_deg", {0, 180, true, true});
     if (reader.has("cone")) {
