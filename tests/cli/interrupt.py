@@ -71,6 +71,14 @@ for command in ["render tiny.toml --panel-image white.png --estimator point", "p
     checks.that(process.returncode == 130 and "most.png" in err and "marked incomplete" in err,
                 f"{command}: exit code {process.returncode} after {time.monotonic() - sent:.1f} s: {err}")
 
+# A command that keeps nothing says that it was interrupted, too.
+program.must("eia tiny.toml --pattern white --set panel.pixels=[4000,2000] -o wide.png")
+process = program.start("sheet" + 40 * " wide.png" + " -o sheet.png")
+time.sleep(0.5)
+process.send_signal(signal.SIGINT)
+out, err = process.communicate(timeout=60)
+checks.that(process.returncode == 130 and "interrupted" in err, f"sheet: exit code {process.returncode}, said {err!r}")
+
 before = program.files()
 process = program.start(f"{LONG} --samples 10000000 -o never.png")
 time.sleep(1)

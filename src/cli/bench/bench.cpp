@@ -10,6 +10,7 @@
 #include "engine/devices/memory.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <tbb/info.h>
 #include <algorithm>
 #include <filesystem>
@@ -118,7 +119,10 @@ void run(const BenchArguments& args) {
     all["complete"] = !bench.cancelled();
     all.update(bench.groups());
     if (settings.json) print_json(all);
-    if (bench.cancelled()) throw Interrupted{};
+    if (bench.cancelled()) {
+        spdlog::warn("interrupted; what was not measured is missing");
+        throw Interrupted{};
+    }
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ inline constexpr int interrupted_exit = 130;
 /// The exception of work that a signal stopped, thrown when the completed part has been saved or dropped; exit code 130.
 struct Interrupted {};
 
-/// Makes signals end the program at once with exit code 130, and remove its partial file.
+/// Makes signals end the program at once with exit code 130; it then says so, and removes its partial file.
 void catch_signals();
 
 /// Guards a file that will be written: a signal that ends the program removes its partial file. One file is guarded at a time, the

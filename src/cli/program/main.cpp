@@ -62,7 +62,10 @@ int run_and_tell(const std::function<int()>& work) {
     } catch (const cli::Interrupted&) {
         return cli::interrupted_exit;
     } catch (const InputError& error) {
-        if (cli::interrupted()) return cli::interrupted_exit;  // the signal has also stopped a process that reads a model
+        if (cli::interrupted()) {  // the signal has also stopped a process that reads a model
+            spdlog::warn("interrupted");
+            return cli::interrupted_exit;
+        }
         for (const Problem& p : error.problems) spdlog::error("{}", p.where.empty() ? p.what : p.where + ": " + p.what);
         return 2;
     } catch (const std::bad_alloc&) {
