@@ -48,7 +48,10 @@ void ViewsFolder::check() const {
     const fs::path& folder = pictures_.folder;
     std::error_code none;
     detail::remove_abandoned(folder, {});
-    if (!fs::is_directory(folder, none) || fs::is_empty(folder, none)) return;
+    if (!fs::is_directory(folder, none)) return;
+    std::error_code unreadable;
+    if (fs::is_empty(folder, unreadable)) return;
+    if (unreadable) throw InputError(folder.string(), fmt::format("cannot be read: {}", unreadable.message()));
     if (!pictures_.resume && !pictures_.replace) {
         if (const std::int64_t made = pictures_.count_finished(); made > 0)
             throw InputError(
