@@ -179,14 +179,14 @@ TEST(Calibration, NamesTheKeyThatIsWrong) {
         json.erase(key);
         EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string("visual.json: ") + key + ": is missing"));
         json[key] = {{"value", "12"}};
-        EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string(key) + ": 12 is not a finite number"));
+        EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string(key) + ": is a text; give a number"));
         json[key] = Json::array({1, 2});
-        EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string(key) + ": array is not a finite number"));
+        EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string(key) + ": is a list; give a number"));
         json[key] = {{"value", 1e300}};
         EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string(key) + ": is 1e+300; allowed is"));
         std::string text = json.dump();
         text.replace(text.find("1e+300"), 6, "NaN");
-        EXPECT_THAT(calibration_refused(text), HasSubstr(std::string(key) + ": NaN is not a finite number"));
+        EXPECT_THAT(calibration_refused(text), HasSubstr(std::string(key) + ": is NaN; give a finite number"));
         if (std::string(key) == "center") continue;
         json[key] = {{"value", 0}};
         EXPECT_THAT(calibration_refused(json.dump()), HasSubstr(std::string(key) + ": is 0"));
@@ -204,7 +204,7 @@ TEST(Calibration, NamesTheKeyThatIsWrong) {
         {"viewCone", 0, "viewCone: is 0; allowed is 1 to 170"},
         {"viewCone", nullptr, "viewCone: is missing, which determines the gap; give --gap-mm"},
         {"flipImageX", 3, "flipImageX: is 3; allowed is 0 to 1"},
-        {"flipImageX", "yes", "flipImageX: yes is not a finite number"},
+        {"flipImageX", "yes", "flipImageX: is a text; give a number"},
         {"pitch", 9000, "pitch: is 9000 lenses per inch, with 0.0344 of the panel's pixels behind each"},
         {"CellPatternMode", 1, "CellPatternMode: is 1, but there are no subpixelCells; give 2, or mode 0"},
         {"CellPatternMode", 7, "CellPatternMode: is 7; allowed is 0 to 4"},
@@ -226,6 +226,17 @@ TEST(Calibration, NamesTheKeyThatIsWrong) {
         EXPECT_THAT(calibration_refused(nothing), HasSubstr("is not a calibration"));
 }
 
+TEST(Calibration, RefusesKeysGivenTwice) {
+    const std::string whole = some_unit().dump(), more = "{\"pitch\": 50, ";
+    EXPECT_THAT(calibration_refused(more + whole.substr(1)), HasSubstr("visual.json: pitch: is given twice"));
+    EXPECT_THAT(calibration_refused("{\"a\": [1, {\"b\": 1, \"b\": 2}]}"), HasSubstr("visual.json: a[1].b: is given twice"));
+    Json both = some_unit();
+    both["Pitch"] = both["pitch"];
+    EXPECT_THAT(calibration_refused(both.dump()), HasSubstr("visual.json: pitch: is given twice, as pitch and Pitch"));
+    const Json within = {{"devices", Json::array({{{"calibration", more + whole.substr(1)}}})}};
+    EXPECT_THAT(calibration_refused(within.dump()), HasSubstr("visual.json: devices[0].calibration: pitch: is given twice"));
+}
+
 TEST(Calibration, RefusesWhatTheRequestMakesImpossible) {
     CalibrationRequest request;
     request.distance_mm = 0.5;
@@ -244,7 +255,7 @@ TEST(Calibration, StandsHostileFiles) {
         EXPECT_THAT(calibration_refused(whole.substr(0, end)), HasSubstr("visual.json: is not JSON: parse error at line")) << end;
     const std::size_t deep = 250000;
     EXPECT_THAT(calibration_refused(R"({"pitch": )" + std::string(deep, '[') + std::string(deep, ']') + "}"),
-                HasSubstr("pitch: array is not a finite number"));
+                HasSubstr("pitch: is a list; give a number"));
     EXPECT_THAT(calibration_refused(R"({"a": )" + std::string(deep, '[') + std::string(deep, ']') + "}"),
                 HasSubstr("is not a calibration"));
     EXPECT_THAT(calibration_refused(std::string((1 << 20) + 1, ' ')), HasSubstr("1048576"));

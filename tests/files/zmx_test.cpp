@@ -127,6 +127,8 @@ TEST(Zmx, NamesWhatCannotBeImported) {
         {"CURV -0.478080", "CURV", "lens.zmx:20: surface 3: CURV has 0 of its values; the line is cut"},
         {"  CURV -0.478080\n", "", "lens.zmx:19: surface 3 has no CURV"},
         {"  DISZ 0.09\n", "", "lens.zmx:19: surface 3 has no DISZ"},
+        {"CURV -0.478080", "CURV -0.478080\n  CURV 0.1", "lens.zmx:21: surface 3: CURV is given twice"},
+        {"UNIT IN", "UNIT IN\nUNIT MM", "lens.zmx:3: UNIT is given twice"},
         {"SURF 5", "SURF 6", "lens.zmx:26: SURF 6, where surface 5 should begin"},
         {"SURF 0\n", "", "lens.zmx:8: CURV precedes the first SURF"},
     };

@@ -6,6 +6,7 @@
 #include "base/printable.h"
 #include "display/keys.h"
 #include "files/calibration/calibration.h"
+#include "files/description/json_text.h"
 #include "files/description/nearest.h"
 #include "files/lenses/lens_json.h"
 
@@ -23,16 +24,19 @@ constexpr std::size_t enough_keys = 3;  // of own_keys, by which a calibration i
 constexpr int deepest_nesting = 8;      // levels of objects, lists and texts that are searched
 constexpr std::size_t most_found = 10;  // calibrations; further ones are not searched
 
+/// Returns the key with its first letter in the other case.
+std::string with_other_case(std::string key) {
+    char& c = key[0];
+    c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    return key;
+}
+
 /// Returns a member by its key, or else by the key whose first letter is in the other case: "cellPatternMode" for
 /// "CellPatternMode". `found_as` becomes the key that the file has.
 const LensJson& named(const LensJson& json, const std::string& key, std::string& found_as) {
     found_as = key;
     if (const LensJson& exact = member(json, key); !exact.is_null()) return exact;
-    const auto other = [](char c) {
-        return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    };
-    std::string turned = key;
-    turned[0] = other(turned[0]);
+    const std::string turned = with_other_case(key);
     const LensJson& found = member(json, turned);
     if (!found.is_null()) found_as = turned;
     return found;
@@ -71,8 +75,8 @@ struct CalibrationValues {
 };
 
 /// Finds all calibrations within a value: in objects, lists, and texts that are JSON themselves.
-void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& json, const std::string& place, int depth,
-                 std::vector<CalibrationValues>& found) {
+void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& json, std::string_view name, const std::string& place,
+                 int depth, std::vector<CalibrationValues>& found) {
     if (depth > deepest_nesting || found.size() >= most_found) return;
     if (own_keys_of(json) >= enough_keys) {
         const auto same = [&](const CalibrationValues& other) { return other.same_unit(json); };
@@ -82,15 +86,16 @@ void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& js
     if (json.is_string()) {
         const auto& word = json.get_ref<const std::string&>();
         if (word.find('{') == word.npos) return;
-        const auto inside =
-            std::make_shared<const LensJson>(LensJson::parse(word, nullptr, false));  // nothing, where it is no JSON
-        if (inside->is_structured()) find_within(inside, *inside, place, depth + 1, found);
+        const UniqueKeys<LensJson> unique(fmt::format("{}: {}: ", name, place));
+        const auto inside = std::make_shared<const LensJson>(LensJson::parse(word, unique, false));  // nothing, where it is no JSON
+        if (inside->is_structured()) find_within(inside, *inside, name, place, depth + 1, found);
     }
     if (json.is_object())
         for (const auto& [key, content] : json.items())
-            find_within(text, content, place.empty() ? shortened(key) : place + "." + shortened(key), depth + 1, found);
+            find_within(text, content, name, place.empty() ? shortened(key) : place + "." + shortened(key), depth + 1, found);
     if (json.is_array())
-        for (std::size_t i = 0; i < json.size(); ++i) find_within(text, json[i], fmt::format("{}[{}]", place, i), depth + 1, found);
+        for (std::size_t i = 0; i < json.size(); ++i)
+            find_within(text, json[i], name, fmt::format("{}[{}]", place, i), depth + 1, found);
 }
 
 /// Returns the different calibrations in a text. A text whose top level has at least one of own_keys counts as one, so that the
@@ -98,7 +103,7 @@ void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& js
 std::vector<CalibrationValues> calibrations_in(std::string_view text, std::string_view name) {
     const auto json = std::make_shared<const LensJson>(parse_lens_json(text, name));
     std::vector<CalibrationValues> found;
-    find_within(json, *json, "", 0, found);
+    find_within(json, *json, name, "", 0, found);
     if (found.empty() && (own_keys_of(*json) > 0)) found.push_back({"", json, json.get()});
     return found;
 }
@@ -131,8 +136,15 @@ class CalibrationReader : JsonReader {
     const LensJson& value(const std::string& key) {
         std::string found_as;
         const LensJson& found = named(*all, key, found_as);
-        known.insert(found_as);
+        if (known.insert(found_as).second) refuse_twice(*all, key, key);
         return found.is_object() ? member(found, "value") : found;
+    }
+
+    /// Refuses a key that an object has in both cases.
+    void refuse_twice(const LensJson& json, const std::string& key, const std::string& place) {
+        const std::string other = with_other_case(key);
+        if (!member(json, key).is_null() && !member(json, other).is_null())
+            refuse(place, "is given twice, as {} and {}; leave one of them out", key, other);
     }
 
     double required(const std::string& key, const Range& range) { return in_range(value(key), key, range); }
@@ -197,6 +209,7 @@ class CalibrationReader : JsonReader {
             for (std::size_t k = 0; k < 2; ++k) {
                 const char* key = keys[channel][k];
                 const LensJson& found = named(json, key);
+                refuse_twice(json, key, fmt::format("{}.{}", place, key));
                 places[channel][k] =
                     in_range(found.is_object() ? member(found, "value") : found, fmt::format("{}.{}", place, key), place_range);
             }

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 
 #include "base/printable.h"
+#include "files/description/json_text.h"
 #include "files/description/nearest.h"
 #include "files/description/text_file.h"
 
@@ -37,7 +39,7 @@ class PathReader {
     /// Whether a value is an object with the first `required` of these keys; any key that is not among them is refused, too.
     bool object(const Json& json, const std::string& place, std::span<const std::string_view> keys, std::size_t required) {
         if (!json.is_object()) {
-            refuse(place, "is {}; give an object with {}", json.type_name(), fmt::join(keys, ", "));
+            refuse(place, "is {}; give an object with {}", kind_of_json(json), fmt::join(keys, ", "));
             return false;
         }
         bool complete = true;
@@ -53,17 +55,18 @@ class PathReader {
             }
         return complete;
     }
-    double number(const Json& json, const std::string& place) {
+    /// Returns the number, or nothing where the value is refused.
+    std::optional<double> number(const Json& json, const std::string& place) {
         if (json.is_number()) return json.get<double>();  // the parser refuses infinite ones
-        refuse(place, "is {}; give a number", json.type_name());
-        return 0;
+        refuse(place, "is {}; give a number", kind_of_json(json));
+        return {};
     }
     Vec3d point(const Json& json, const std::string& place) {
         Vec3d xyz{};
         if (!json.is_array() || json.size() != 3)
             refuse(place, "give three numbers: x, y, z in mm");
         else
-            for (std::size_t i = 0; i < 3; ++i) xyz[i] = number(json[i], fmt::format("{}[{}]", place, i));
+            for (std::size_t i = 0; i < 3; ++i) xyz[i] = number(json[i], fmt::format("{}[{}]", place, i)).value_or(0);
         return xyz;
     }
 
@@ -110,7 +113,7 @@ CameraPath parse_path(std::string_view text, std::string_view name) {
         throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}", text.size(), largest_text_bytes));
     Json json;
     try {
-        json = Json::parse(text);
+        json = Json::parse(text, UniqueKeys<Json>(fmt::format("{}: ", name)));
     } catch (const Json::exception& error) {
         const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
         const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
@@ -121,10 +124,11 @@ CameraPath parse_path(std::string_view text, std::string_view name) {
     CameraPath path;
     if (!reader.object(json, "the file", path_keys, 3)) reader.report();
     if (json["schema"] != 1) reader.refuse("schema", "only 1 is known");
-    path.frames_per_second = reader.number(json["frames_per_second"], "frames_per_second");
-    if (!(path.frames_per_second > 0 && path.frames_per_second <= most_frames_per_second))
-        reader.refuse("frames_per_second", "is {}; allowed is more than 0, up to {}", path.frames_per_second,
-                      most_frames_per_second);
+    if (const std::optional<double> rate = reader.number(json["frames_per_second"], "frames_per_second")) {
+        path.frames_per_second = *rate;
+        if (!(*rate > 0 && *rate <= most_frames_per_second))
+            reader.refuse("frames_per_second", "is {}; allowed is more than 0, up to {}", *rate, most_frames_per_second);
+    }
     // The poses, whose times rise from 0.
     const Json& poses = json["poses"];
     if (!poses.is_array() || poses.empty()) reader.refuse("poses", "give a list of one pose or more");
@@ -132,13 +136,14 @@ CameraPath parse_path(std::string_view text, std::string_view name) {
         const std::string place = fmt::format("poses[{}]", i);
         CameraPose pose;
         if (!reader.object(poses[i], place, pose_keys, 2)) continue;
-        pose.time_s = reader.number(poses[i]["time_s"], place + ".time_s");
+        const std::optional<double> time = reader.number(poses[i]["time_s"], place + ".time_s");
         pose.position_mm = reader.point(poses[i]["position_mm"], place + ".position_mm");
         if (poses[i].contains("target_mm")) pose.target_mm = reader.point(poses[i]["target_mm"], place + ".target_mm");
-        if (path.poses.empty() && pose.time_s != 0)
-            reader.refuse(place + ".time_s", "is {}; the first pose is at 0", pose.time_s);
-        else if (!path.poses.empty() && !(pose.time_s > path.poses.back().time_s))
-            reader.refuse(place + ".time_s", "is {}, not later than the pose before, at {}", pose.time_s, path.poses.back().time_s);
+        pose.time_s = time.value_or(path.poses.empty() ? 0 : path.poses.back().time_s);
+        if (time && path.poses.empty() && *time != 0)
+            reader.refuse(place + ".time_s", "is {}; the first pose is at 0", *time);
+        else if (time && !path.poses.empty() && !(*time > path.poses.back().time_s))
+            reader.refuse(place + ".time_s", "is {}, not later than the pose before, at {}", *time, path.poses.back().time_s);
         path.poses.push_back(pose);
     }
     reader.report();

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/printable.h"
+#include "files/description/json_text.h"
 #include "files/description/nearest.h"
 #include "files/description/text_file.h"
 
@@ -39,7 +40,7 @@ LensJson parse_lens_json(std::string_view text, std::string_view name) {
     if (text.size() > largest_text_bytes)
         throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}", text.size(), largest_text_bytes));
     try {
-        return LensJson::parse(without_bare_words(std::string(text)));
+        return LensJson::parse(without_bare_words(std::string(text)), UniqueKeys<LensJson>(fmt::format("{}: ", name)));
     } catch (const LensJson::exception& error) {
         const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
         const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
@@ -64,7 +65,12 @@ double JsonReader::number(const LensJson& json, const std::string& place, bool m
     if (json.is_number()) return json.get<double>();  // the parser refuses infinite ones
     if (may_be_infinite && json == "Infin.") return std::numeric_limits<double>::infinity();
     if (may_be_infinite && json == "-Infin.") return -std::numeric_limits<double>::infinity();
-    refuse(place, "{}", json.is_null() ? "is missing" : (json == "N" ? "NaN" : word_of(json)) + " is not a finite number");
+    if (json.is_null())
+        refuse(place, "is missing");
+    else if (json == "N" || json == "Infin." || json == "-Infin.")
+        refuse(place, "is {}; give a finite number", json == "N" ? "NaN" : "infinite");
+    else
+        refuse(place, "is {}; give a number", kind_of_json(json));
     return 0;
 }
 

@@ -65,7 +65,7 @@ class OptilandReader : LensJsonReader {
         if (type != "StandardGeometry" && type != "EvenAsphere")
             return refuse(place, "is of type {}, which cannot be imported; Plane, StandardGeometry and EvenAsphere can", type);
         const double radius = number(member(shape, "radius"), place + ".radius", true);
-        if (radius == 0) refuse(place + ".radius", "is 0");
+        if (member(shape, "radius") == 0) refuse(place + ".radius", "is 0");
         s.curvature_per_mm = radius == 0 ? 0 : 1 / radius;
         if (!member(shape, "conic").is_null()) s.conic = number(member(shape, "conic"), place + ".conic");
         if (type == "StandardGeometry") return;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 
 #include "base/counted.h"
@@ -78,7 +79,14 @@ class ZmxReader {
             std::any_of(std::begin(surface_words), std::end(surface_words), [&](const Word& word) { return word.key == key; });
         if (of_surface && surfaces.empty()) return refuse(line, "{} precedes the first SURF", key);
         for (const Word& word : of_surface ? std::span<const Word>(surface_words) : std::span<const Word>(system_words))
-            if (word.key == key) return (this->*word.read)();
+            if (word.key == key) {
+                const std::string what =
+                    word.times == Times::once_each && words.size() > 1 ? fmt::format("{} {}", key, words[1]) : std::string(key);
+                auto& given = of_surface ? given_of_surface : given_of_system;
+                if (word.times != Times::any && !given.insert(what).second)
+                    return refuse(line, "{}{} is given twice", here(), shortened(what));
+                return (this->*word.read)();
+            }
         if (std::ranges::find(other_apertures, key) != std::end(other_apertures))
             return refuse(line, "{}{} is an aperture other than a circle about the axis; only such circles can be imported", here(),
                           key);
@@ -101,6 +109,7 @@ class ZmxReader {
             throw InputError(std::move(problems));
         }
         surfaces.emplace_back().line = line;
+        given_of_surface.clear();
         surfaces.back().drawn.place = fmt::format("{}:{}: surface {}", name, line, number);
     }
 
@@ -221,22 +230,33 @@ class ZmxReader {
         for (std::size_t i = 1; i < words.size(); ++i) lens.title += (i > 1 ? " " : "") + std::string(words[i]);
     }
 
+    enum class Times { any, once, once_each };  // once_each: for each number that follows the word
     struct Word {
         std::string_view key;
         void (ZmxReader::*read)();
+        Times times;  // that a surface, or the lens, may have the word
     };
     static constexpr Word surface_words[] = {
-        {"TYPE", &ZmxReader::read_type},     {"CURV", &ZmxReader::read_curvature}, {"DISZ", &ZmxReader::read_distance},
-        {"CONI", &ZmxReader::read_conic},    {"PARM", &ZmxReader::read_parameter}, {"STOP", &ZmxReader::read_stop},
-        {"DIAM", &ZmxReader::read_diameter}, {"CLAP", &ZmxReader::read_aperture},  {"FLAP", &ZmxReader::read_aperture},
-        {"GLAS", &ZmxReader::read_glass},    {"OBDC", &ZmxReader::read_shift},     {"SCBD", &ZmxReader::read_shift},
-        {"COAT", &ZmxReader::read_coating},
+        {"TYPE", &ZmxReader::read_type, Times::once},           {"CURV", &ZmxReader::read_curvature, Times::once},
+        {"DISZ", &ZmxReader::read_distance, Times::once},       {"CONI", &ZmxReader::read_conic, Times::once},
+        {"PARM", &ZmxReader::read_parameter, Times::once_each}, {"STOP", &ZmxReader::read_stop, Times::any},
+        {"DIAM", &ZmxReader::read_diameter, Times::any},        {"CLAP", &ZmxReader::read_aperture, Times::any},
+        {"FLAP", &ZmxReader::read_aperture, Times::any},        {"GLAS", &ZmxReader::read_glass, Times::once},
+        {"OBDC", &ZmxReader::read_shift, Times::any},           {"SCBD", &ZmxReader::read_shift, Times::any},
+        {"COAT", &ZmxReader::read_coating, Times::any},
     };
     static constexpr Word system_words[] = {
-        {"MODE", &ZmxReader::read_mode},    {"UNIT", &ZmxReader::read_unit},     {"MNUM", &ZmxReader::read_configurations},
-        {"ENPD", &ZmxReader::read_pupil},   {"FNUM", &ZmxReader::read_f_number}, {"FTYP", &ZmxReader::read_field_type},
-        {"XFLN", &ZmxReader::read_fields},  {"YFLN", &ZmxReader::read_fields},   {"WAVM", &ZmxReader::read_wavelength},
-        {"PWAV", &ZmxReader::read_primary}, {"NAME", &ZmxReader::read_title},
+        {"MODE", &ZmxReader::read_mode, Times::any},
+        {"UNIT", &ZmxReader::read_unit, Times::once},
+        {"MNUM", &ZmxReader::read_configurations, Times::any},
+        {"ENPD", &ZmxReader::read_pupil, Times::once},
+        {"FNUM", &ZmxReader::read_f_number, Times::once},
+        {"FTYP", &ZmxReader::read_field_type, Times::once},
+        {"XFLN", &ZmxReader::read_fields, Times::any},
+        {"YFLN", &ZmxReader::read_fields, Times::any},
+        {"WAVM", &ZmxReader::read_wavelength, Times::once_each},
+        {"PWAV", &ZmxReader::read_primary, Times::once},
+        {"NAME", &ZmxReader::read_title, Times::any},
     };
 
     // Checks what can be checked only when all lines are read, and makes the lens.
@@ -293,7 +313,8 @@ class ZmxReader {
     bool in_surface = false;              // the line belongs to a surface: it is SURF or indented after one
     std::vector<std::string_view> words;  // of the line
     std::vector<ZmxSurface> surfaces;
-    double unit_mm = 0;  // 0: not given
+    std::set<std::string> given_of_surface, given_of_system;  // words of the surface and of the lens so far that may be given once
+    double unit_mm = 0;                                       // 0: not given
     std::array<double, 24> wavelengths_um{};
     std::size_t primary = 0;
     bool field_is_angle = false;

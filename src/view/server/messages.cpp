@@ -2,13 +2,13 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
+#include "files/description/json_text.h"
 #include "files/description/nearest.h"
 
 #include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <set>
 #include <span>
 
 namespace lfdsim::view {
@@ -26,16 +26,12 @@ constexpr std::int64_t least_side = 16, largest_side = 4096;
 Parsed parse(std::string_view text) {
     if (text.size() > longest_message)
         throw InputError("message", fmt::format("has {} bytes, allowed are {}", text.size(), longest_message));
-    std::vector<std::set<std::string>> keys;  // of the objects that are open
+    UniqueKeys<Parsed> unique("");
     const auto check = [&](int depth, Parsed::parse_event_t event, Parsed& value) {
         using Event = Parsed::parse_event_t;
         if ((event == Event::object_start || event == Event::array_start) && depth >= deepest_message)
             throw InputError("message", fmt::format("is nested more than {} levels deep", deepest_message));
-        if (event == Event::object_start) keys.emplace_back();
-        if (event == Event::object_end) keys.pop_back();
-        if (event == Event::key && !keys.back().insert(value.get<std::string>()).second)
-            throw InputError(shortened(value.get<std::string>()), "is given twice");
-        return true;
+        return unique(depth, event, value);
     };
     try {
         return Parsed::parse(text, check);
