@@ -126,8 +126,8 @@ std::string meant(std::string_view path) {
     return std::string(nearest(path, candidates));
 }
 
-/// The default of a key whose values are words or text: an override KEY=DEFAULT resets it. None for all other keys, which KEY=none
-/// resets, and for required and unknown ones.
+/// The default of a key whose values are words, one of which may be "none": an override KEY=DEFAULT resets it. None for all other
+/// keys, which KEY=none resets, and for required and unknown ones.
 nb::object default_word(std::string_view path) {
     const FormatTable::Value* const found = key_at(path);
     if (!found || found->key.required) return nb::none();
@@ -135,8 +135,6 @@ nb::object default_word(std::string_view path) {
         []<class V>(const V* fresh) -> nb::object {
             if constexpr (has_words<V>)
                 return nb::cast(std::string(word(*fresh)));
-            else if constexpr (std::is_same_v<V, std::string>)
-                return nb::cast(*fresh);
             else
                 return nb::none();
         },

@@ -64,7 +64,22 @@ TEST(Override, NoneTakesAway) {
     const Display d = set({"array.gap_mm=none", "array.base_z_mm=12", "camera.pupil_diameter_mm=none"});
     EXPECT_FALSE(d.array.gap_mm);
     EXPECT_EQ(d.array.base_z_mm, 12);
+    const Display without = set({"name=x", "content.model=a.obj", "errors.table=none", "name=none", "content.model=none",
+                                 "content.inverse.start=none", "render.estimator=none", "panel.subpixels=none"});
+    EXPECT_EQ(without.name, "");
+    EXPECT_EQ(without.content.model, "");
+    EXPECT_EQ(without.errors.table, "");
+    EXPECT_EQ(without.content.inverse.start, "");
+    EXPECT_EQ(without.render.estimator, Render().estimator);
+    EXPECT_EQ(set({"content.model=./none"}).content.model, "./none");
+    EXPECT_EQ(set({"content.model=\"none\""}).content.model, "none");
+    EXPECT_THAT(fault_of({"lens.type=none"}), HasSubstr("lens.type: is missing"));
     EXPECT_THAT(fault_of({"panel=none"}), HasSubstr("d:1:1: panel.pixels: is missing"));
+}
+
+TEST(Override, EmptyNamesOfFilesAreFaults) {
+    for (const std::string set : {"errors.table=", "content.model=", "content.inverse.start=\"\"", "glass_catalogues=[\"\"]"})
+        EXPECT_THAT(fault_of({set}), HasSubstr("--set " + set + ": " + set.substr(0, set.find('=')) + ": has an empty text"));
 }
 
 TEST(Override, Surfaces) {

@@ -57,6 +57,9 @@ class Changes(TinyTest):
         d = self.display.with_({"content.model": "pyramid.obj", "panel.subpixels": "rgb_stripe"})
         self.assertEqual(d["content.model"], os.path.abspath("pyramid.obj"))
         self.assertEqual(d.with_({"content.model": None, "panel.subpixels": None}), self.display)
+        for key in ("content.model", "errors.table"):
+            with self.assertRaisesRegex(lfdsim.DisplayError, f"{key}: has an empty text"):
+                d.with_({key: ""})
 
     def test_values_of_every_kind(self) -> None:
         import numpy as np

@@ -122,9 +122,19 @@ class DisplayReader {
     void read_value_of(const toml::node* node, std::string path, bool required, ValueRef value) {
         if (!node) {
             if (required && !any_kind) add(std::move(path), "is missing");
-        } else if (std::string fault = std::visit([&](auto* field) { return read_value(*node, *field); }, value); !fault.empty()) {
-            add(std::move(path), std::move(fault));
+            return;
         }
+        std::string fault = std::visit([&](auto* field) { return read_value(*node, *field); }, value);
+        // Descriptions that the program writes have empty names of files where there are none.
+        if (fault.empty() && source.is_set(path) && has_empty_text(value) && key_at(path)->key.names_file)
+            fault = "has an empty text; give the name of a file, or none";
+        if (!fault.empty()) add(std::move(path), std::move(fault));
+    }
+
+    static bool has_empty_text(ValueRef value) {
+        if (const auto* const text = std::get_if<std::string*>(&value)) return (**text).empty();
+        const auto* const texts = std::get_if<std::vector<std::string>*>(&value);
+        return texts && std::ranges::count(**texts, "") > 0;
     }
 
     // Reads a field that is a table, by its PartKind.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 
@@ -87,6 +88,17 @@ std::string hint_in(std::string_view text, std::size_t line, std::string_view sa
     return std::string(says);
 }
 
+// Whether "none" is one of the words that the key at a path accepts ("panel.subpixels").
+bool takes_none(std::string_view path) {
+    const FormatTable::Value* found = key_at(path);
+    return found && std::visit(
+                        []<class V>(const V*) {
+                            if constexpr (has_words<V>) return std::ranges::count(words<V>(), "none") > 0;
+                            return false;
+                        },
+                        found->fresh);
+}
+
 }  // namespace
 
 bool takes_glass(std::string_view path) {
@@ -131,7 +143,7 @@ void Source::apply(const std::string& override_text) {
 
     // Down to the table or list that has the key. Missing tables on the way are created; values are not replaced by tables.
     toml::node* node = &root_;
-    const bool removes = value == "none" && !takes_word(path);
+    const bool removes = value == "none" && !takes_none(path);
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         toml::node* next = child(*node, parts[i]);
         if (!next && removes) {
@@ -144,7 +156,6 @@ void Source::apply(const std::string& override_text) {
         if (!next->is_table() && !next->is_array()) throw InputError("", fmt::format("{} is a value, and has no parts", parts[i]));
         node = next;
     }
-    // "none" removes the key, except where it is a word that the key accepts ("panel.subpixels=none").
     if (removes) {
         if (toml::table* table = node->as_table())
             table->erase(parts.back());
