@@ -13,11 +13,21 @@ namespace {
 
 constexpr double strongest_deg = 30;  // beyond it views of any usual field of view mix
 
-/// Returns the best distance, mm from the vertex plane, for a diffuser yet to be added: that of the central depth plane, where it
-/// costs no sharpness, if that is in front of the lenses and at most halfway to the eye; else 20 lens pitches, at most halfway.
-double best_distance_mm(const Geometry& g, const Theory& t, const Pitch& pitch, double eye_mm) {
-    const double central = g.rear_principal_mm + t.central_depth_mm - g.vertex_plane_mm;
-    return central > g.top_z_mm - g.vertex_plane_mm && central < eye_mm / 2 ? central : std::min(20 * pitch.least(), eye_mm / 2);
+/// Returns the best distance, mm from the vertex plane, for a diffuser that joins the lenses' light: that of the central depth
+/// plane, where it costs no sharpness, if that is in front of the lenses and at most halfway to the eye; else 20 lens pitches. It
+/// is no less than where views separate with it, and at most halfway to the eye.
+double best_distance_mm(const Display& d, const Geometry& g, const Theory& t, double eye_mm) {
+    const double from_vertex = g.rear_principal_mm - g.vertex_plane_mm, central = t.central_depth_mm + from_vertex;
+    const bool there = central > g.top_z_mm - g.vertex_plane_mm && central < eye_mm / 2;
+    // A diffuser at d above H' that spreads light over p there adds g p/d (1 - d/E), times its profile's width, to what an eye sees
+    // of the panel at once.
+    const Pitch& pitch = d.array.pitch_mm;
+    const double spread = g.gap_mm * pitch[axis_of_eyes(g)] * even_width_of(d.diffuser ? d.diffuser->profile : Profile::box);
+    const std::size_t axis = axis_of_eyes(g);
+    const double away = eye_mm - from_vertex,
+                 left = most_seen_share * t.along[axis].elemental_pitch_mm - seen_through_lens_mm(g, away),
+                 least = left > 0 ? 1.05 / (left / spread + 1 / away) + from_vertex : 0;
+    return std::min(std::max(there ? central : 20 * pitch.least(), least), eye_mm / 2);
 }
 
 /// Returns whether the pupil's defocus closes the gaps as a diffuser would: an eye with a pupil of diameter A, focused at F, sees
@@ -47,8 +57,7 @@ void advise_on_diffuser(Advised& a) {
     if (strips && d.lens.type() == LensType::pinhole) return;  // a barrier is meant to be dark between its slits
     // Each axis has its angle 2 atan(S/2d) that closes the gaps, S the spread that joins neighbouring lenses' light there and d
     // the diffuser's height above the plane that limits the light: at the best distance (best_deg) and at the actual one (angle).
-    const Pitch& p = d.array.pitch_mm;
-    const double eye = camera_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(g, a.theory, p, eye);
+    const double eye = camera_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(d, g, a.theory, eye);
     const std::array<double, 2> joining = joining_spread_mm(g);
     const std::size_t main = joining[0] > 0 ? 0 : 1;  // strips need one angle alone
     std::array<double, 2> best_deg, height, angle;
@@ -83,9 +92,9 @@ void advise_on_diffuser(Advised& a) {
         const double distance = d.diffuser->distance_mm + height[main] * (1 / spread(main) - 1);  // where this diffuser joins them
         // An angle with which views do not separate is no remedy.
         const double away = camera_distance_mm(d) - g.rear_principal_mm;
-        const bool mixing =
-            seen_through_lens_mm(g, away) + seen_by_diffuser_mm(g, away, angle[main], *g.diffuser_z_mm - g.rear_principal_mm) >
-            most_seen_share * a.theory.along[axis_of_eyes(g)].elemental_pitch_mm;
+        const bool mixing = seen_through_lens_mm(g, away) + seen_by_diffuser_mm(g, away, d.diffuser->profile, angle[main],
+                                                                                *g.diffuser_z_mm - g.rear_principal_mm) >
+                            most_seen_share * a.theory.along[axis_of_eyes(g)].elemental_pitch_mm;
         std::string remedy = too_near || mixing
                                  ? "Use " + best
                                  : fmt::format("At its distance use {} ({})", degrees_text(angle), option_text(angle));

@@ -28,11 +28,12 @@ bool advise_behind_eye(Advised& a, double eye) {
 }
 
 /// Returns a better depth for the scene: a quarter of the way to the eye; for a near-eye display 1.5 m behind the lenses, or the
-/// depth nearest to that, in 1/z, within the depth of field by the pixel.
+/// depth nearest to that, in 1/z, within the depth of field by the pixel, but far enough for the eye to focus on.
 double better_depth_mm(const Advised& a, double eye) {
     if (eye > 2 * nearest_focus_mm) return eye / 4;
     const double sharp = std::clamp(-1 / 1500., a.theory.depth_far_per_mm, a.theory.depth_near_per_mm);
-    return sharp < 0 ? 1 / sharp + a.geometry.rear_principal_mm - a.geometry.vertex_plane_mm : -1500;
+    const double depth = sharp < 0 ? 1 / sharp + a.geometry.rear_principal_mm - a.geometry.vertex_plane_mm : -1500;
+    return std::min(depth, eye - 1.2 * nearest_focus_mm);
 }
 
 /// Says if the scene is nearer to the eye than eyes can focus, as it is by default for a near-eye display (at the lenses).

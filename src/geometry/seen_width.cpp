@@ -1,6 +1,7 @@
 #include "geometry/seen_width.h"
 
 #include "base/constants.h"
+#include "geometry/diffuser_profile.h"
 
 #include <cmath>
 
@@ -15,8 +16,18 @@ double seen_through_lens_mm(const Geometry& g, double eye_mm) {
     return g.clear_aperture_mm[axis_of_eyes(g)] * std::abs(1 + g.gap_mm / eye_mm - power);
 }
 
-double seen_by_diffuser_mm(const Geometry& g, double eye_mm, double angle_deg, double above_mm) {
-    return 2 * g.gap_mm * std::tan(angle_deg * degree / 2) * std::abs(1 - above_mm / eye_mm);
+double even_width_of(Profile profile) {
+    const ProfileFigures& figures = figures_of(profile);
+    double inside = 0, outside = figures.width;
+    for (int halved = 0; halved < 40; ++halved) {
+        const double middle = 0.5 * (inside + outside);
+        (figures.below(middle) < 0.5 + 0.5 * middle_share ? inside : outside) = middle;
+    }
+    return 2 * inside / middle_share;
+}
+
+double seen_by_diffuser_mm(const Geometry& g, double eye_mm, Profile profile, double angle_deg, double above_mm) {
+    return even_width_of(profile) * 2 * g.gap_mm * std::tan(angle_deg * degree / 2) * std::abs(1 - above_mm / eye_mm);
 }
 
 }  // namespace lfdsim

@@ -15,7 +15,15 @@ std::size_t axis_of_eyes(const Geometry&);
 /// Returns the width, mm along that axis, that an eye at the distance E from H' sees through a lens: D |1 + g/E - g/f|.
 double seen_through_lens_mm(const Geometry&, double eye_mm);
 
-/// Returns the width that a diffuser of the full angle w, at the height d above H', adds to that: 2 g tan(w/2) |1 - d/E|.
-double seen_by_diffuser_mm(const Geometry&, double eye_mm, double angle_deg, double above_mm);
+/// What an eye sees at once is taken as the width that holds this share of the light, over the share: exact for evenly spread
+/// light.
+inline constexpr double middle_share = 0.95;
+
+/// Returns that width of a diffuser's light, in units of its angle: 1 of a box, 1.75 of a normal distribution.
+double even_width_of(Profile);
+
+/// Returns the width that a diffuser of the angle w, at the height d above H', adds to that: 2 g tan(w/2) |1 - d/E|, times
+/// even_width_of() its profile.
+double seen_by_diffuser_mm(const Geometry&, double eye_mm, Profile, double angle_deg, double above_mm);
 
 }  // namespace lfdsim

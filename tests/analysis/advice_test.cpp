@@ -70,6 +70,10 @@ TEST(Advice, OnTheNearEyeSaysWhereTheSceneIs) {
     Display d = near_eye();
     d.content.depth_mm = -60;
     EXPECT_THAT(advice_for(d), Contains(HasSubstr("the scene is 60 mm behind the lenses and 7")));
+    // Where pixels are sharp only near the lenses, the depth that is advised is still one that eyes can focus on.
+    d.content.depth_mm = 0;
+    d.lens.kind = IdealLens{{}, 4};
+    EXPECT_THAT(advice_for(d), Contains(HasSubstr("--set content.depth_mm=-102 ")));
 }
 
 // Near a pinhole the angle that joins the holes would mix the views: another distance is advised.

@@ -157,6 +157,31 @@ TEST(Verdicts, ADiffuserIsWeakenedAlongTheAxisAtFault) {
     EXPECT_THAT(advice(d, resolve(d), theory(d, resolve(d))), IsEmpty());
 }
 
+// Before a near eye lenses that are focused on the panel are no remedy: they must image it to the eye.
+TEST(Verdicts, ANearEyeNeedsThePanelsImage) {
+    Display d = small_display();
+    d.diffuser.reset();
+    d.lens.as<IdealLens>() = {0.72, 20};
+    d.camera.position_mm[2] = d.content.viewing_distance_mm = 7.2;
+    const std::vector<std::string> told = verdicts_of(d);
+    ASSERT_THAT(told, Contains(AllOf(HasSubstr("not at the eye"), HasSubstr("lens.focal_length_mm=1.75"))));
+    d.lens.as<IdealLens>().focal_length_mm = 1.75;
+    EXPECT_THAT(verdicts_of(d), Not(Contains(HasSubstr("views do not separate"))));
+}
+
+// The stop that is advised against aberration is one with which views separate.
+TEST(Verdicts, AStopSeparatesViewsThatAberrationMixes) {
+    Display d = lens_examples::shipped("desktop-spherical");
+    d.lens.as<PlanoConvex>() = {6.2, 6, 1, 1.4918, Facing::panel};
+    d.array.gap_mm = 12.6;
+    d.diffuser.reset();
+    const std::vector<std::string> told = verdicts_of(d);
+    ASSERT_THAT(told,
+                Contains(AllOf(HasSubstr("views do not separate"), HasSubstr("aberration is the cause"), HasSubstr("a stop"))));
+    d.lens.stop_radius_mm = std::stod(told[0].substr(told[0].find("stop_radius_mm=") + 15));
+    EXPECT_THAT(verdicts_of(d), Not(Contains(HasSubstr("views do not separate"))));
+}
+
 // An array whose height is given has no gap of its own, and cannot be given one beside it.
 TEST(Verdicts, AGapIsAdvisedInPlaceOfTheHeight) {
     Display d = small_display();

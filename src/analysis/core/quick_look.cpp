@@ -22,7 +22,6 @@ namespace lfdsim {
 namespace {
 
 constexpr int lines_of_lens = 1024, lines_of_screen = 4096, lines_of_waves = 16384, rays_of_lens = 32, fan_of_lens = 65;
-constexpr double middle_share = 0.95;
 constexpr int fewest = 16;               // lines that are needed for a figure
 constexpr std::uint32_t most_sets = 16;  // of as many lines each, if few get through
 

@@ -98,18 +98,27 @@ std::string stop_remedy(const Display& d, const std::optional<Stop>& stop) {
         stop->radius_mm, stop->radius_mm, 100 * stop->light_share);
 }
 
-/// Returns the remedy that focuses lenses on the panel, f = g: another lens, or another gap if that is possible.
-std::string focus_remedy(Display d, const Geometry& g) {
-    std::string remedy = fmt::format("Lenses of a focal length of {:.4g} mm, the gap, would be focused on the panel", g.gap_mm);
-    const double stronger = g.gap_mm / g.focal_length_mm;
+/// Returns what is wrong with the focus of lenses, and the remedy that focuses them on the panel, f = g: another lens, or another
+/// gap if that is possible. So near an eye that it would still see more than `most_mm` of the panel through them, D g/E, they are
+/// to image the panel to the eye, 1/f = 1/g + 1/E.
+std::string focus_remedy(Display d, const Geometry& g, const Theory& t, double most_mm) {
+    const double away = camera_distance_mm(d) - g.rear_principal_mm;
+    const bool to_eye = g.clear_aperture_mm[axis_of_eyes(g)] * g.gap_mm / away > most_mm;
+    const double focal = to_eye ? 1 / (1 / g.gap_mm + 1 / away) : g.gap_mm;
+    std::string remedy = fmt::format(
+        "They are focused {} (focal length {:.4g} mm, gap {:.4g} mm), not {}. Lenses of a focal length of {:.4g} mm{} would be "
+        "focused {}",
+        place(t.central_depth_mm), g.focal_length_mm, g.gap_mm, to_eye ? "at the eye" : "on the panel", focal,
+        to_eye ? "" : ", the gap,", to_eye ? "there" : "on the panel");
+    const double stronger = focal / g.focal_length_mm;
     if (d.lens.type() == LensType::plano_convex && stronger > 0)
         remedy += fmt::format(": with this glass a radius of {0:.4g} mm (lens.sphere_radius_mm = {0:.4g})",
                               d.lens.as<PlanoConvex>().sphere_radius_mm * stronger);
-    if (d.lens.type() == LensType::ideal) remedy += fmt::format(" (--set lens.focal_length_mm={:.4g})", g.gap_mm);
+    if (d.lens.type() == LensType::ideal) remedy += fmt::format(" (--set lens.focal_length_mm={:.4g})", focal);
     const char* const only = d.array.base_z_mm ? "array.base_z_mm=none " : "";  // either key, not both
     d.array.base_z_mm.reset();
     d.array.gap_mm = g.focal_length_mm;
-    if (g.focal_length_mm > 0 && !g.glued && valid(d))
+    if (!to_eye && g.focal_length_mm > 0 && !g.glued && valid(d))
         remedy += fmt::format(", as would these at a gap of {0:.4g} mm (--set {1}array.gap_mm={0:.4g})", g.focal_length_mm, only);
     return remedy;
 }
@@ -117,18 +126,27 @@ std::string focus_remedy(Display d, const Geometry& g) {
 /// Returns whether an eye sees at most half of an elemental image at once.
 bool separates(const SeenAtOnce& seen) { return seen.width_mm.traced <= most_seen_share * seen.image_mm; }
 
-/// Returns the remedy for views that a diffuser mixes: one that is weaker by a factor along the eyes' line alone, or along both
-/// axes where the array is turned so that both mix.
+/// Returns the widest stop with which views separate.
+std::optional<Stop> stop_against_overlap(const Display& d, const Geometry& g) {
+    return widest_stop(d, g, [](const Display& stopped, double) {
+        const std::optional<SeenAtOnce> seen = seen_at_once(stopped, resolve(stopped));
+        return seen && separates(*seen);
+    });
+}
+
+/// Returns the remedy for views that a diffuser mixes: one that is weaker by a factor along the eyes' line, or along both axes
+/// where the array is turned, so that both mix views, and the first alone does not separate them.
 std::string weaker_diffuser(Display d, const Geometry& g, double factor) {
-    const Diffuser given = *d.diffuser;
-    const std::size_t main = g.lattice.strips && std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn) ? 1 : 0;
+    const double cosine = std::abs(g.lattice.cos_turn), sine = std::abs(g.lattice.sin_turn);
+    const std::size_t main = g.lattice.strips && cosine < sine ? 1 : 0;
+    const std::array<double, 2> given = d.diffuser->angle_deg;
     std::array<double, 2>& angle = d.diffuser->angle_deg;
     angle[main] *= factor;
     const std::optional<SeenAtOnce> left = seen_at_once(d, g);
-    if (!left || !separates(*left)) angle[1 - main] *= factor;
+    if (std::min(cosine, sine) > 1e-9 && !(left && separates(*left))) angle[1 - main] *= factor;
     return fmt::format(
         "The diffuser mixes them ({:.4g} x {:.4g} degrees); use a weaker one (--set 'diffuser.angle_deg=[{:.3g}, {:.3g}]')",
-        given.angle_deg[0], given.angle_deg[1], angle[0], angle[1]);
+        given[0], given[1], angle[0], angle[1]);
 }
 
 /// Returns the remedy for views that do not separate, by the first cause that applies: errors of assembly, holes too wide, lenses
@@ -150,15 +168,13 @@ std::string separation_remedy(const Display& d, const Geometry& g, const Theory&
             "panel pixel",
             0.5 * view / e);
     }
-    if (seen.through_apertures_mm > most)
-        return fmt::format("They are focused {} (focal length {:.4g} mm, gap {:.4g} mm), not on the panel. {}",
-                           place(t.central_depth_mm), g.focal_length_mm, g.gap_mm, focus_remedy(d, g));
+    if (seen.through_apertures_mm > most) return focus_remedy(d, g, t, most);
     if (d.diffuser && seen.width_mm.theory > most) {
         const double of_diffuser = seen.width_mm.theory - seen.through_apertures_mm,
                      scale = std::clamp((0.9 * most - seen.through_apertures_mm) / of_diffuser, 0.05, 1.);
         return weaker_diffuser(d, g, scale);
     }
-    return "The lenses' aberration is the cause. " + stop_remedy(d, stop_against_blur(d, g));
+    return "The lenses' aberration is the cause. " + stop_remedy(d, stop_against_overlap(d, g));
 }
 
 /// Judges whether views separate at all: an eye must see at most half of an elemental image at once.
