@@ -132,7 +132,7 @@ TEST_F(AnswersTest, ScenesHaveControlsAndAreSaved) {
     std::ofstream(folder / "scenes/scene.toml")
         << from.rdbuf() << "\n[[content.object]]\nimage = \"../wall.png\"\nwidth_mm = 40\n[[content.object]]\nmodel = "
         << "\"built-in:spheres\"\nheight_mm = 30\nposition_mm = [1, 2, 3]\n";
-    const Library all({folder / "scenes/scene.toml", {"content.model="}, "", "", ""}, folder);
+    const Library all({folder / "scenes/scene.toml", {"content.model=none"}, "", "", ""}, folder);
     const Json message = resolved(all, wanted());
     EXPECT_EQ(control(message, "content.object.0.width_mm")["value"], 40);
     EXPECT_EQ(control(message, "content.object.1.position_mm")["value"], (Json{1, 2, 3}));
