@@ -15,6 +15,7 @@ namespace {
 
 constexpr int sheet_width = 480, strip_width = 400;  // pixels, of one picture of the contact sheets and of the animation
 constexpr int views = 7, frames = 32;
+constexpr double picture_error = 0.005;  // of a pixel, over a white screen's light: these pictures are only looked at
 
 /// Returns the angle of the farthest views: 30 degrees, or 5 degrees beyond the field of view if that is more.
 double most_deg(const Subject& s) { return std::clamp(std::ceil(0.5 * s.theory(0).fov_deg) + 5, 30., 75.); }
@@ -34,10 +35,13 @@ struct Pair {
 Pair look(Subject& s, const Display& sized, double horizontal, double vertical, const Job& job) {
     const Display seen = seen_from(sized, horizontal, vertical);
     Quiet quiet(job);
-    Rendering r = render(seen, s.geometry(), s.panel(job), s.rendering(), quiet);
+    const double white = s.white_field(job);
+    RenderOptions how = s.rendering();
+    if (!seen.render.samples) how.target_error = picture_error * white;
+    Rendering r = render(seen, s.geometry(), s.panel(job), how, quiet);
     Picture photograph = reference_photograph(seen, s.geometry(), s.scene(), s.threads(), {}, quiet);
     if (!r.complete || !photograph.complete) throw Stopped{};
-    expose(r.image, s.white_field(job));
+    expose(r.image, white);
     return {std::move(r.image), std::move(photograph.image)};
 }
 
