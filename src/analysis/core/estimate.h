@@ -20,7 +20,7 @@ struct Estimate {
 inline constexpr std::array<double, 9> student{0, 0, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365};
 
 /// Returns the estimate from two to eight independent values: their mean, and as error `precision` + student[n] s/sqrt(n), with s
-/// the values' standard deviation and `precision` the error of each value by itself.
+/// the values' standard deviation and `precision` the error that each single value has.
 inline Estimate estimate(std::span<const double> found, double precision = 0) {
     const double n = double(found.size());
     double sum = 0, squares = 0;

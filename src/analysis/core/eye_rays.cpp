@@ -165,8 +165,8 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
         const auto [x, y] = come_down_to(scene_.stop_z);
         if (!optics::passes_stop(scene_, extent, x, y)) return {};
     }
-    const optics::PanelBase<double> on_panel{0, 0, 0, 0,
-                                             raised};  // the end is relative to where the base lens's axis meets the panel
+    // The end is relative to where the base lens's axis meets the panel.
+    const optics::PanelBase<double> on_panel{0, 0, 0, 0, raised};
     const optics::PanelPoint<double> end = optics::trace_any<double>(scene_, extent, on_panel, ray, true);
     if (!end.alive || !(end.weight > 0)) return {};
 

@@ -21,8 +21,8 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<const char*>:
 extern "C" void on_signal(int) {
     if (signals.fetch_add(1) == 0 && heeded > 0) return;
     if (const char* file = partial_file) unlink(file);
-    constexpr std::string_view told = "lfdsim: warning: interrupted\n";
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, told.data(), told.size());
+    constexpr std::string_view message = "lfdsim: warning: interrupted\n";
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
     _exit(interrupted_exit);
 }
 
