@@ -126,7 +126,7 @@ std::optional<std::vector<View>> views_of(const Request& request, const Display&
     return views;
 }
 
-double gain_of(std::span<const View> views) {
+double gain_of(const Request& request, std::span<const View> views) {
     std::vector<float> light;
     for (const View& view : views) {
         if (view.weight != 1) continue;
@@ -136,7 +136,7 @@ double gain_of(std::span<const View> views) {
     }
     const float brightest = light.empty() ? 0 : *std::max_element(light.begin(), light.end());
     std::erase_if(light, [&](float x) { return !(x >= float(dim_share) * brightest) || !(x > 0); });
-    if (light.empty()) throw InputError("content.inverse.eyes_mm", "no ray from these eyes ends on the panel");
+    if (light.empty()) throw no_light(request);
     const auto middle = light.begin() + std::ptrdiff_t(light.size() / 2);
     std::nth_element(light.begin(), middle, light.end());
     return *middle;

@@ -34,7 +34,7 @@ std::optional<std::vector<View>> views_of(const Request&, const Display&, std::s
 
 /// Returns G, the median light of a white panel over the elements of eyes in the boxes, without those that are dim, or partly
 /// between lenses. Throws InputError if there is none.
-double gain_of(std::span<const View>);
+double gain_of(const Request&, std::span<const View>);
 
 /// Sets View::expected, q of docs/inverse.md: which elements count, and the share of the gain that each can show, what it sees of a
 /// white panel over the most that an element within a lens pitch of it does. Where this is much less than 1, or the most much less

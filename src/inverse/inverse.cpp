@@ -83,6 +83,31 @@ PanelVector start_of(const Request& request, const PanelVector& traced) {
     return vector_of(image);
 }
 
+/// Returns the centre x0 of the prior: traced content at the levels B and W; without it M'VU t / bound, the mean of what the eyes
+/// should see of each pixel.
+PanelVector centre_of(FittedViews& views, const std::optional<Picture>& traced, const Exposure& exposure,
+                      const PanelVector& bound) {
+    PanelVector centre(bound.size(), float(exposure.black));
+    if (traced) {
+        centre = vector_of(traced->image);
+        for (float& x : centre) x = float(exposure.black + (exposure.white - exposure.black) * double(x));
+        return centre;
+    }
+    PanelVector half;
+    views.half_gradient(PanelVector(bound.size(), 0), half);
+    for (std::size_t j = 0; j < bound.size(); ++j)
+        if (bound[j] > 0) centre[j] = std::clamp(-half[j] / bound[j], 0.f, 1.f);
+    return centre;
+}
+
+/// Returns whether the content has no light in any element that counts.
+bool is_black(std::span<const View> views) {
+    for (const View& view : views)
+        for (std::size_t k = 0; k < view.content.rgb.size(); ++k)
+            if (view.expected[k / 3] > 0 && view.content.rgb[k] > 0) return false;
+    return true;
+}
+
 /// The result of solve().
 struct Solved {
     PanelVector x;
@@ -97,7 +122,7 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     double mean = 0, met = 0;
     for (const float b : bound)
         if (b > 0) mean += double(b), ++met;
-    if (!(met > 0)) throw InputError("content.inverse.eyes_mm", "no ray from these eyes ends on the panel");
+    if (!(met > 0)) throw no_light(request);
     report.unseen_percent = 100 * (1 - met / (double(bound.size()) * 0.75));
     BoxSolver solver(start, centre, bound, report.prior * mean / met);
     Solved best{start};
@@ -107,9 +132,13 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     double waited_from = report.held_out.psnr_db;
     int waited = 0;
     const int steps = int(request.keys().iterations);
+    const auto begun = Clock::now();
     for (int step = 1; step <= steps && !request.job.cancelled(); ++step) {
         const std::string so_far = held_out ? fmt::format(", held-out eyes {:.2f} dB", report.held_out.psnr_db) : "";
-        request.job.stage(fmt::format("inverting, step {} of {}{}", step, steps, so_far), 1);
+        const double left = seconds_since(begun) * (steps - step + 1) / std::max(step - 1, 1);
+        request.job.stage(fmt::format("inverting, step {} of {}{}{}", step, steps, so_far,
+                                      step > 1 ? fmt::format(", at most {:.0f} s left", std::ceil(left)) : ""),
+                          1);
         views.half_gradient(solver.point(), gradient);
         if (request.job.cancelled()) break;
         solver.step(gradient);
@@ -173,9 +202,10 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     auto others = views_of(request, request.shown, held_out_eyes, held_out_rays, white_points_for(request, counts, held_out_rays),
                            held_out_content_samples, panel, "held-out eyes");
     if (!others) return stopped();
-    const Exposure exposure{keys.levels[0], keys.levels[1], gain_of(*views)};
+    const Exposure exposure{keys.levels[0], keys.levels[1], gain_of(request, *views)};
     expect_light(*views, exposure.gain);
     expect_light(*others, exposure.gain);
+    if (is_black(*views)) report.warnings.push_back("the content is black from these eyes: there is nothing to fit");
     const bool pixels = entries_are_pixels(request.display), codes = keys.weighting == ErrorOf::eye;
     FittedViews fitted(std::move(*views), pixels, codes, exposure, job), held_out(std::move(*others), pixels, codes, exposure, job);
     report.rays = fitted.rays();
@@ -191,18 +221,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     const PanelVector bound = fitted.bound(size);
     if (job.cancelled()) return stopped();
     if (request.boxes.size() == 2) report.crosstalk = crosstalk_of(fitted, std::size_t(report.places), size);
-    // The centre x0 of the prior: traced content at the levels B and W; without it M'VU t / bound, the mean of what the eyes should
-    // see of each pixel.
-    PanelVector centre(size, float(exposure.black));
-    if (traced) {
-        centre = vector_of(traced->image);
-        for (float& x : centre) x = float(exposure.black + (exposure.white - exposure.black) * double(x));
-    } else {
-        PanelVector half;
-        fitted.half_gradient(PanelVector(size, 0), half);
-        for (std::size_t j = 0; j < size; ++j)
-            if (bound[j] > 0) centre[j] = std::clamp(-half[j] / bound[j], 0.f, 1.f);
-    }
+    const PanelVector centre = centre_of(fitted, traced, exposure, bound);
     const bool scored = !held_out_eyes.empty() && !std::isnan(mean_nearness(held_out, centre, 1000).psnr_db);
     if (!held_out_eyes.empty() && !scored)
         report.warnings.push_back("held-out eyes see too little of the screen to be compared: the last step's panel is written");
@@ -361,7 +380,6 @@ InvertedPanel invert(const Display& display, const Geometry& as_shown, const Eye
         for (std::size_t k = 0; k < wanted.eyes_mm.size(); ++k)
             eyes.push_back({wanted.eyes_mm[k], std::int64_t(k), 1, &wanted.pictures[k]});
         const EyeCounts counts = count(request, eyes);
-        if (!(counts.pixels > 0)) throw InputError("target_eyes_mm", "no ray from these eyes ends on the panel");
         InverseReport report;
         report.places = std::int64_t(eyes.size());
         report.rays_per_element = request.keys().rays.value_or(rays_for(counts));

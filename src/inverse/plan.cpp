@@ -1,6 +1,5 @@
 #include "inverse/plan.h"
 
-#include "base/input_error.h"
 #include "engine/views/panel_rays.h"
 
 #include <fmt/format.h>
@@ -46,6 +45,13 @@ Display display_of(const Request& request, const Display& display, const Geometr
     return seen;
 }
 
+InputError no_light(const Request& request) {
+    const char* const none = "no ray from these eyes ends on the panel";
+    return request.boxes.empty() ? InputError("target_eyes_mm", none)
+                                 : InputError("content.inverse.eyes_mm",
+                                              fmt::format("{}; give a box from which the display is bright (--eyes-mm)", none));
+}
+
 EyeCounts count(const Request& request, std::span<const Eye> eyes) {
     const auto [columns, rows] = request.display.panel.pixels;
     std::vector<std::uint8_t> met(std::size_t(columns) * std::size_t(rows), 0);
@@ -73,6 +79,7 @@ EyeCounts count(const Request& request, std::span<const Eye> eyes) {
     EyeCounts counts;
     for (const EyeCounts& one : each) counts = {0, counts.rows + one.rows, counts.lit + one.lit};
     counts.pixels = double(std::count(met.begin(), met.end(), 1));
+    if (!(counts.pixels > 0) && !request.job.cancelled()) throw no_light(request);
     return counts;
 }
 
@@ -103,9 +110,6 @@ Plan plan(const Request& request) {
     for (int attempt = 0;; ++attempt) {
         const EyeCounts inside = count(request, eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1));
         if (request.job.cancelled()) return p;
-        if (!(inside.pixels > 0))
-            throw InputError("content.inverse.eyes_mm",
-                             "no ray from these eyes ends on the panel; give a box from which the display is bright (--eyes-mm)");
         const double ratio = inside.rows / inside.pixels;
         const bool fixed = keys.places || views == 0;
         if (fixed || ratio >= rows_wanted || attempt == 4) break;

@@ -1,5 +1,6 @@
 // Which eyes are fitted, and by how many rays. Floor 3.
 #pragma once
+#include "base/input_error.h"
 #include "base/job.h"
 #include "display/display.h"
 #include "geometry/geometry.h"
@@ -43,11 +44,14 @@ std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, floa
 /// place from which the display cannot be seen.
 Display display_of(const Request&, const Display&, const Geometry&, const Eye&, std::int64_t rays);
 
+/// The error of eyes to which the panel sends no light.
+InputError no_light(const Request&);
+
 /// What eyes meet of a panel.
 struct EyeCounts {
     double pixels = 0, rows = 0, lit = 0;  // panel pixels met; elements with light; rays with light, with one ray an element
 };
-/// Counts these with a few rays for each element. Unfinished where the job is cancelled.
+/// Counts these with a few rays for each element. Unfinished where the job is cancelled. Throws InputError if there is none.
 EyeCounts count(const Request&, std::span<const Eye>);
 
 /// The intended numbers of elements of views and of rays with light for each panel pixel that eyes meet.

@@ -38,7 +38,7 @@ endforeach()
 
 # `lfdsim study` goes on in the Python that the module is for. Of a wheel that is the one that pip installs it in.
 if(NOT SKBUILD)
-  set_source_files_properties(${PROJECT_SOURCE_DIR}/src/cli/study.cpp PROPERTIES COMPILE_DEFINITIONS
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/src/cli/commands/study.cpp PROPERTIES COMPILE_DEFINITIONS
     "LFDSIM_PYTHON_INTERPRETER=\"${LFDSIM_PYTHON_INTERPRETER}\"")
 endif()
 

@@ -223,6 +223,12 @@ TEST_F(AnswersTest, FiguresAreThoseOfTheory) {
     EXPECT_TRUE(found);
     EXPECT_EQ(message["name"], "small");
     EXPECT_EQ(message["id"], 5);
+    const Json wide = resolved(library({"array.lattice=rectangle", "array.pitch_mm=[24,20]"}), wanted());
+    for (const Json& figure : wide["theory"])
+        if (figure["name"] == "fov_deg") {
+            EXPECT_EQ(figure["value"].size(), 2u);  // along x and y
+            EXPECT_GT(figure["value"][0], figure["value"][1]);
+        }
     Wanted aside = wanted();
     aside.eye_mm = {500, 0, 330};
     EXPECT_THAT(resolved(library(), aside)["warnings"].dump(), HasSubstr("outside the field of view"));

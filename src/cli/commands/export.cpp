@@ -183,8 +183,9 @@ void run(const ExportArguments& args) {
                            {"picture", scene.picture},
                            {"lfdsim", lfdsims},
                            {"deviations", scene.deviations}});
-    std::string text = fmt::format("{}: a scene for {}; render it there with\n  {}\nand lfdsim's picture of the same with\n  {}\n",
-                                   printable(args.folder.text()), name_of(peer), scene.command, lfdsims);
+    std::string text =
+        fmt::format("{}: a scene for {}{}; render it there with\n  {}\nand lfdsim's picture of the same with\n  {}\n",
+                    printable(args.folder.text()), name_of(peer), panel.text, scene.command, lfdsims);
     for (const std::string& deviation : scene.deviations) text += "deviates: " + deviation + "\n";
     print(text);
 }

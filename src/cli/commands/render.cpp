@@ -62,8 +62,8 @@ void render_frames(const RenderArguments& args, const Display& display, const Ca
     print_made(PictureMade{args.output.path(), options.crop ? options.crop->x1 - options.crop->x0 : int(columns),
                            options.crop ? options.crop->y1 - options.crop->y0 : int(rows), "samples", made.samples, made.seconds},
                args.work.json(),
-               fmt::format("{}{}; {}, {} of them made before", made.how.empty() ? "" : ", ", made.how,
-                           counted(made.frames, "frame"), made.frames - made.rendered),
+               fmt::format("{}{}; {}, {} of them made before{}", made.how.empty() ? "" : ", ", made.how,
+                           counted(made.frames, "frame"), made.frames - made.rendered, panel.text),
                made.more);
 }
 
@@ -136,7 +136,7 @@ void run(const RenderArguments& args) {
 
     facts.more.update(panel.made);
     print_made(PictureMade{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
-               ", " + how_made(r) + (lens ? "; " + args.lens_mesh.text(*lens) : ""), facts.more);
+               ", " + how_made(r) + (lens ? "; " + args.lens_mesh.text(*lens) : "") + panel.text, facts.more);
 }
 
 }  // namespace

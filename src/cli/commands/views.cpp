@@ -214,7 +214,7 @@ class ViewsMaker {
     Picture depth(int column, int row, Job& job) const {
         return scene_view_depth(*scene_, geometry_, grid_, column, row, making(), job);
     }
-    const Json& more() const { return light_.made; }
+    const PanelTexels& light() const { return light_; }  // that views of the display show
 
   private:
     ViewMaking making() const {
@@ -336,10 +336,10 @@ void run(const ViewsArguments& args) {
     const Picture made = target.quilt ? make_quilt(maker, args, display, grid, target, progress)
                                       : make_folder(maker, args, display, grid, target, folder, progress);
     Json more{{"of", args.of_what.text()}, {"views", grid_json(grid)}};
-    more.update(maker.more());
+    more.update(maker.light().made);
     print_made(PictureMade{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays",
                            made.rays, made.seconds},
-               args.work.json(), "; " + grid_text(grid), more);
+               args.work.json(), "; " + grid_text(grid) + maker.light().text, more);
 }
 
 }  // namespace

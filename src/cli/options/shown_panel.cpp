@@ -16,12 +16,14 @@ PanelTexels shown_panel(const PanelImageOption& image, const PatternOption& shap
     const auto [picture, inverse] = shown_content(display, geometry, load_scene(display, geometry), threads, progress);
     progress.end();
     if (!picture.complete) end_interrupted();
+    std::string text;
     Json images = {{"rays", picture.rays}, {"seconds", picture.seconds}};
     if (inverse) {
         warn_of_inverse(*inverse);
         images["inverse"] = inverse_json(*inverse);
+        text = "; content " + inverse_text(*inverse);
     }
-    return {shown_texels(picture.image, display.panel.encoding), {{"elemental_images", std::move(images)}}};
+    return {shown_texels(picture.image, display.panel.encoding), {{"elemental_images", std::move(images)}}, std::move(text)};
 }
 
 Json shown_stamp(const PanelImageOption& image, const PatternOption& shape, const Display& display) {

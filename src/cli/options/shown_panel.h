@@ -7,6 +7,7 @@ namespace lfdsim::cli {
 struct PanelTexels {
     Texels texels;
     Json made = Json::object();  // how it was made, for --json
+    std::string text = {};       // what a reader should know of it: "; ..." or nothing
 };
 
 /// Returns the light of the image file, the pattern, or the elemental images of the display's model. Throws InputError, and

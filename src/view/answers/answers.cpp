@@ -1,5 +1,6 @@
 #include "view/answers/answers.h"
 
+#include "analysis/core/figure_json.h"
 #include "content/content.h"
 #include "display/keys.h"
 #include "files/description/display_file.h"
@@ -22,11 +23,14 @@ namespace {
 
 Json json_of(const std::vector<Figure>& figures) {
     Json all = Json::array();
-    const Json values = to_json(figures);
     for (const Figure& f : figures) {
         if (f.kind == Figure::Presentation::for_scripts) continue;
-        all.push_back(
-            {{"name", f.name}, {"label", f.meaning}, {"unit", unit_of(f.name)}, {"value", values[f.name]}, {"doc", f.formula}});
+        const bool one = f.values.size() == 1 || std::isnan(f.values[0]);
+        all.push_back({{"name", f.name},
+                       {"label", f.meaning},
+                       {"unit", unit_of(f.name)},
+                       {"value", one ? number_json(f.values[0]) : numbers_json(f.values)},
+                       {"doc", f.formula}});
         if (f.kind == Figure::Presentation::interval) all.back()["interval"] = true;
     }
     return all;
