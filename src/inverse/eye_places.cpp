@@ -50,22 +50,41 @@ double view_period_mm(const Geometry& geometry, std::size_t axis, double z_mm) {
     return pitch * (z_mm - geometry.rear_principal_mm + geometry.gap_mm) / geometry.gap_mm;
 }
 
-/// Returns half the width and half the height of the array as slopes from the eye's line of sight: the largest of its corners.
-/// Throws InputError if it is not in front of the eye.
-std::array<double, 2> half_slopes(const Geometry& g, const Vec3d& eye, const CameraAxes& axes) {
+/// Returns the largest slopes to the sides and up, from the eye's line of sight, of a rectangle's corners, which are turned by
+/// `turn_deg` about its middle; infinite if not all are in front of the eye.
+std::array<double, 2> half_slopes(const Vec3d& middle, double width, double height, double turn_deg, const Vec3d& eye,
+                                  const CameraAxes& axes) {
     std::array<double, 2> most{};
-    const double turn = g.turn_deg * degree, c = std::cos(turn), s = std::sin(turn);
-    for (const double i : {-0.5, 0.5})
-        for (const double j : {-0.5, 0.5}) {
-            const double x = i * g.array_width_mm, y = j * g.array_height_mm;
-            const Vec3d corner{g.lattice.offset[0] + c * x - s * y, g.lattice.offset[1] + s * x + c * y, g.vertex_plane_mm};
+    const double turn = turn_deg * degree, c = std::cos(turn), s = std::sin(turn);
+    for (const double x : {-0.5 * width, 0.5 * width})
+        for (const double y : {-0.5 * height, 0.5 * height}) {
+            const Vec3d corner{middle[0] + c * x - s * y, middle[1] + s * x + c * y, middle[2]};
             const Vec3d ray = minus(corner, eye);
             const double depth = dot(ray, axes.forward);
-            if (!(depth > 0)) throw InputError(eyes_key, fmt::format("from {} the array is not in front of the eye", text_of(eye)));
+            if (!(depth > 0)) return {infinity, infinity};
             most[0] = std::max(most[0], std::abs(dot(ray, axes.right)) / depth);
             most[1] = std::max(most[1], std::abs(dot(ray, axes.up)) / depth);
         }
     return most;
+}
+
+/// Returns half the width and half the height, as such slopes, of what an eye sees of the array, or of the panel through it if that
+/// is less. Throws InputError if the array is not in front of the eye.
+std::array<double, 2> half_slopes(const Display& d, const Geometry& g, const Vec3d& eye, const CameraAxes& axes) {
+    const std::array<double, 2> array = half_slopes({g.lattice.offset[0], g.lattice.offset[1], g.vertex_plane_mm}, g.array_width_mm,
+                                                    g.array_height_mm, g.turn_deg, eye, axes);
+    if (std::isinf(array[0])) throw InputError(eyes_key, fmt::format("from {} the array is not in front of the eye", text_of(eye)));
+    // The line from the eye E through a lens's middle X meets the panel at X + (X - E) k, k = g/(E_z - z_V). A ray ends elsewhere
+    // by less than a pitch, and the diffuser turns it by less than twice its half width.
+    const double k = g.gap_mm / (eye[2] - g.vertex_plane_mm), up = d.diffuser ? *g.diffuser_z_mm - g.vertex_plane_mm : 0;
+    const double pitch = is_strips(d.array) ? d.array.pitch_mm[0] : std::max(d.array.pitch_mm[0], d.array.pitch_mm[1]);
+    std::array<double, 2> size{g.panel_width_mm, g.panel_height_mm};
+    for (const std::size_t c : {0u, 1u}) {
+        const double spread = d.diffuser ? up * std::tan(std::min(d.diffuser->angle_deg[c], 80.) * degree) : 0;
+        size[c] = (size[c] + 2 * std::abs(eye[c]) * k) / (1 + k) + 2 * (pitch + spread);
+    }
+    const std::array<double, 2> panel = half_slopes({0, 0, g.vertex_plane_mm}, size[0], size[1], 0, eye, axes);
+    return {std::min(array[0], panel[0]), std::min(array[1], panel[1])};
 }
 
 }  // namespace
@@ -194,9 +213,9 @@ Display seen_by_eye(const Display& display, const Geometry& geometry, const Vec3
     if (!(focus > 0))
         throw InputError("content.depth_mm", fmt::format("the content's middle, at z = {:.5g} mm, is not in front of an eye at {}",
                                                          content_z_mm, text_of(eye)));
-    const std::array<double, 2> half = half_slopes(geometry, eye, axes);
+    const std::array<double, 2> half = half_slopes(display, geometry, eye, axes);
     const double slope = element_mm(display, geometry, eye, content_z_mm) / focus;  // of an element
-    // A frame of whole elements over the array, with one to spare on each side for the shift
+    // A frame of whole elements over the lenses, with one to spare on each side for the shift
     const double columns = std::ceil(2 * half[0] / slope) + 2, rows = std::ceil(2 * half[1] / slope) + 2;
     if (!(columns * rows < 1e8))
         throw InputError("content.inverse.pixel_mm",
