@@ -215,6 +215,11 @@ Display seen_by_eye(const Display& display, const Geometry& geometry, const Vec3
                                                          content_z_mm, text_of(eye)));
     const std::array<double, 2> half = half_slopes(display, geometry, eye, axes);
     const double slope = element_mm(display, geometry, eye, content_z_mm) / focus;  // of an element
+    if (display.content.inverse.pixel_mm && std::min(half[0], half[1]) < slope)
+        throw InputError(
+            "content.inverse.pixel_mm",
+            fmt::format("is {:g}; from {} the display is less than two elements of that width high or wide; give a smaller one",
+                        *display.content.inverse.pixel_mm, text_of(eye)));
     // A frame of whole elements over the lenses, with one to spare on each side for the shift
     const double columns = std::ceil(2 * half[0] / slope) + 2, rows = std::ceil(2 * half[1] / slope) + 2;
     if (!(columns * rows < 1e8))

@@ -126,8 +126,10 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     report.unseen_percent = 100 * (1 - met / (double(bound.size()) * 0.75));
     BoxSolver solver(start, centre, bound, report.prior * mean / met);
     Solved best{start};
-    report.held_out_traced = held_out ? mean_nearness(*held_out, centre, 1000) : Nearness{};
-    report.held_out = held_out ? mean_nearness(*held_out, start, 1000) : Nearness{};
+    if (held_out) {
+        report.held_out_traced = mean_nearness(*held_out, centre, 1000);
+        report.held_out = mean_nearness(*held_out, start, 1000);
+    }
     PanelVector gradient;
     double waited_from = report.held_out.psnr_db;
     int waited = 0;

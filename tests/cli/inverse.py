@@ -44,6 +44,10 @@ boxes = "content.inverse.eyes_mm=[[-34,0,600],[-30,0,600],[30,0,600],[34,0,600]]
 two = json.loads(program.must(f"eia small.toml --pickup inverse -o two.npy --json --set {boxes} content.inverse.rays=16 content.inverse.iterations=2"))["inverse"]
 checks.that(0 < two["crosstalk"] < 1 and told["crosstalk"] is None, f"crosstalk: {two['crosstalk']}, {told['crosstalk']}")
 
+# A box that is a point has no other eyes; eyes far aside see too little to be compared.
+said = program.must("eia small.toml --pickup inverse --eyes-mm=0,0,600,0,0,600 -o point.png --set content.inverse.rays=16 content.inverse.iterations=1")
+checks.that("at the fitted eyes, by other rays:" in said, f"calls the fitted eye one that was not fitted: {said!r}")
+
 BAD = {  # options -> what the message names
     "--eyes-mm=-60,0,5,60,0,5": "content.inverse.eyes_mm: an eye at",
     "--eyes-mm=-60,0,-600,60,0,-600": "content.inverse.eyes_mm: an eye at",
@@ -62,6 +66,7 @@ BAD = {  # options -> what the message names
     "--set content.inverse.places=1": "content.inverse.places",
     "--set content.inverse.eyes_mm=5": "content.inverse.eyes_mm",
     "--set content.inverse.pixel_mm=0.000002": "content.inverse.pixel_mm",
+    "--set content.inverse.pixel_mm=1000": "content.inverse.pixel_mm",
     "--pattern white": "--pattern",
 }
 program.must("eia small.toml --set panel.pixels=[90,60] -o eia-small.png")

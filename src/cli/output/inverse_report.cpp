@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <algorithm>
 #include <cmath>
 
 namespace lfdsim::cli {
@@ -22,11 +23,14 @@ std::string inverse_text(const InverseReport& report) {
         crosstalk = fmt::format("; crosstalk {:.1f} %", 100 * c);
         if (black >= 0.005) crosstalk += fmt::format(", which --levels {:.2f},{:.2f} would allow to cancel", black, 1 - black);
     }
-    const auto nearness = [](const Nearness& n) {
+    const auto nearness = [](const Nearness& n) -> std::string {
+        if (std::isnan(n.psnr_db)) return "not compared";
         return std::isnan(n.ssim) ? fmt::format("{:.2f} dB, no SSIM because of dark gaps", n.psnr_db)
                                   : fmt::format("{:.2f} dB, SSIM {:.3f}", n.psnr_db, n.ssim);
     };
-    return fmt::format("at eyes that were not fitted: {} (traced content: {}); {} eyes{}, {} steps{}", nearness(report.held_out),
+    const bool points = std::ranges::all_of(report.boxes, [](const EyeBox& box) { return box.low == box.high; });
+    return fmt::format("at {}: {} (traced content: {}); {} eyes{}, {} steps{}",
+                       points ? "the fitted eyes, by other rays" : "eyes that were not fitted", nearness(report.held_out),
                        nearness(report.held_out_traced), report.places,
                        report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations,
                        crosstalk);
