@@ -14,7 +14,8 @@ constexpr Key<Content> content_keys[] = {
     {"depth_mm", &Content::depth_mm, any_length, false,
      "Depth of the model's centre, from the array's viewer-side vertex plane. Objects move together; for them it is the depth "
      "midway between the centres of the nearest and the furthest one.",
-     "the central depth plane, or 0 where that is further from the lenses than half the viewer's distance; objects keep their "
+     "the central depth plane of the description as written, which --set, sliders and studies do not move, or 0 where that is "
+     "further from the lenses than half the viewer's distance; objects keep their "
      "places"},
     {"height_mm", &Content::height_mm, positive_length, false,
      "Height of the model. Objects: height of their common bounding box, which is scaled about the point on the display's axis at "

@@ -24,6 +24,8 @@ class Seen:
     def __init__(self, sight, distance):
         self.sight, self.distance = sight, distance
         self.step = sight.display.panel.pixel_pitch_mm / sight.display.gap  # of views, as slopes
+        raised = sight.display.errors.gap_mm if sight.display.errors else 0.0
+        self.view_mm = sight.display.panel.pixel_pitch_mm / (sight.display.gap + raised) * (distance - sight.display.paraxial.rear - raised)  # of the display as built
         self.white = functools.cache(lambda x: White(sight, np.array([x, 0.0, distance])))
 
     def slopes(self, x, sampling):
@@ -50,7 +52,7 @@ class Seen:
 
     def view_percent(self, middle, sampling):
         """Of an eye in the middle of a view, in steps: all other light over that of the view."""
-        s, light, either = self.slopes(middle * self.step * (self.distance - self.sight.display.paraxial.rear), sampling)
+        s, light, either = self.slopes(middle * self.view_mm, sampling)
         meant = above(0.5 * self.step - np.abs(s - middle * self.step))
         return over(light * (1 - meant), light * meant, either)
 

@@ -165,6 +165,19 @@ def as_others_are_built(rng, description):
             array["base_z_mm"] = float(reduced @ indices)
 
 
+def misassemble(number, description):
+    """Gives a display errors of its array, each with two chances of three: they move the outermost lenses by up to 0.3 pitches or a tenth of the gap."""
+    rng = np.random.default_rng([2029, number])
+    array, trial = description["array"], oracle.resolve(description)
+    half = 0.5 * np.hypot(*(trial.array.pitch_mm * trial.array.count)) if not trial.strips else 0.5 * trial.array.pitch_mm[0] * trial.array.count[0]
+    beside, along = trial.array.pitch_mm[0] * rng.uniform(-0.3, 0.3, 4), trial.gap * rng.uniform(-0.1, 0.1, 4)
+    drawn = {"shift_mm": [float(v) for v in beside[:2]], "rotation_deg": math.degrees(beside[2] / half), "pitch_ppm": 1e6 * float(beside[3] / half)}
+    if "base_z_mm" not in array:  # glued lenses keep their height
+        drawn |= {"gap_mm": float(along[0]), "wedge_deg": [math.degrees(v / half) for v in along[1:3]], "bow_mm": float(along[3])}
+    chosen = rng.random(len(drawn)) < 0.67
+    description["errors"] = {key: value for (key, value), take in zip(drawn.items(), chosen) if take} or {"shift_mm": drawn["shift_mm"]}
+
+
 LAYOUTS = ("none", "rgb_stripe", "bgr_stripe", "rgb_rows", "pentile_rgbg", "delta", "custom", "custom")
 GLASSES = ("PMMA", "N-BK7", "PC")
 

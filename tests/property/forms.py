@@ -56,6 +56,8 @@ class Forms:
 
     def takes(self, measure):
         """Whether there are forms for it: pinholes image nothing, one_lens.py knows rows of lenses in air."""
+        if self.display.errors:  # of the array: the forms below of how rays and content meet, not those of one perfect lens
+            return measure in ("fov", "zone", "crosstalk", "uniformity")
         if measure == "dof":
             return self.display.lens.type != "pinhole" and self.one_lens
         if measure == "spot":
@@ -74,6 +76,8 @@ class Forms:
         return sight if share * lines >= LIT / 2 else self.sight(int(lines * min(LIT / 2 / (lines * max(share, 1e-9)), MORE)), with_diffuser)
 
     def check(self, result):
+        if self.display.errors:
+            return {}
         return paraxial.forms(self.display, self.description)
 
     def fov(self, result):
@@ -113,6 +117,8 @@ class Forms:
 
     def uniformity(self, result):
         eye, out = [0.0, 0.0, self.eye], {"screen.luminance_over_panel": white.luminance(self.sight(MANY, True), [0.0, 0.0, self.eye])}
+        if self.display.errors:
+            return out
         middle = Sight(self.display, self.viewing, 8 * MANY, self.seed, True, middle_half=True)
         for axis, name in self.named_axes():
             out[f"bands.{name}_contrast"] = white.band_contrast(middle, eye, axis)

@@ -7,6 +7,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracle"))
 import display as _display  # noqa: E402
 import tracer as _tracer  # noqa: E402
+from errors import MovedLattice  # noqa: E402, F401
 from lattice import Lattice  # noqa: E402, F401
 from pickup import nodal_lines, pixel_centres, subpixel_points  # noqa: E402, F401
 from cases import to_toml  # noqa: E402, F401

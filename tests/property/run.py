@@ -126,9 +126,9 @@ def cases_of(measure, display, result, forms):
             yield table.Case(name, display, f, value, error or 0.0, scale, noted)
 
 
-def display_cases(harness, only, index):
+def display_cases(harness, only, errors, index):
     """All cases of display `index`, how many drawings were refused, and what the program failed at."""
-    description, path, checked, refused = harness.drawn(index)
+    description, path, checked, refused = harness.drawn(index, displays.misassemble if errors else None)
     forms = Forms(oracle.resolve(description), description, index)
     found, failed = list(cases_of("check", index, checked, forms.check(checked))) if only in "check" else [], []
     measures = [measure for measure in EVERY if only in measure and harness.takes(index, measure) and forms.takes(measure)]
@@ -157,7 +157,7 @@ def measured(harness, options):
     with multiprocessing.Pool(initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)) as pool:
         signal.signal(signal.SIGTERM, stop)  # after the workers' start: they end at once
         try:
-            for part in pool.imap(functools.partial(display_cases, harness, options.only), range(options.first, options.first + options.displays)):
+            for part in pool.imap(functools.partial(display_cases, harness, options.only, options.errors), range(options.first, options.first + options.displays)):
                 parts.append(part)
         except KeyboardInterrupt:
             pool.terminate()
@@ -172,6 +172,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="small pictures, and the measures by turns: each display has a few of them")
     parser.add_argument("--panel-pixels", type=float, default=4e5, help="most pixels of a panel")
     parser.add_argument("--only", default="", help="measures whose names contain this")
+    parser.add_argument("--errors", action="store_true", help="displays with errors of assembly: fov, zone, crosstalk and luminance")
     parser.add_argument("--wrong", action="store_true", help="print every figure that does not agree")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for descriptions and results")
     options = parser.parse_args()

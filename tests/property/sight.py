@@ -53,6 +53,9 @@ class Sight:
             i, j, _ = self.lattice.cell(axis + within)
             within = axis + within - self.lattice.axis(i, j)
         self.aim = self.lattice.leave(axis + within, np.zeros_like(within))[0]
+        if d.errors:  # over the array as it is built
+            built = oracle.MovedLattice(d)
+            self.aim = built.leave(built.axis(lens[:, 0], lens[:, 1]) + within + [0.0, 0.0, d.vertex_plane], np.zeros_like(within))[0]
         self.aim[:, 2] = d.vertex_plane
         self.turns = diffuser_turns(d.diffuser, u[:, 4:]) if d.diffuser else None
         self.stretch = 1 + d.gap / (viewing_distance - d.paraxial.rear)  # of elemental images against lenses
