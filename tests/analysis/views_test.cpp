@@ -1,8 +1,10 @@
 #include "analysis/pictures/views.h"
 
+#include "analysis/fov/elemental_fov.h"
 #include "analysis/fov/fov.h"
 #include "analysis/resolution/dof.h"
 #include "analysis/resolution/dof_depths.h"
+#include "base/constants.h"
 #include "example.h"
 
 #include <gtest/gtest.h>
@@ -41,6 +43,26 @@ TEST(Views, ScreenIsWhereTheArrayIsSeen) {
     Display behind = seen;
     behind.camera.position_mm = {0, 0, -500};
     EXPECT_EQ(seen_screen(behind, g).pixels(), 0);
+}
+
+// Elemental images stay where they are made: the field of view of an array that is shifted by 1.5 mm is not symmetric.
+TEST(FieldOfView, MovesWithAShiftedArray) {
+    Display d = display(40, 150);
+    const auto edges = [&] {
+        const OwnLens lens(d, false);
+        const auto choices = even_choices(2048);
+        const auto share = [&](double deg) {
+            return lens.share({600 * std::sin(deg * degree), 0, 600 * std::cos(deg * degree)}, choices);
+        };
+        return std::array{share(-15), share(15)};
+    };
+    const auto straight = edges();
+    EXPECT_GT(straight[0], 0.8);
+    EXPECT_GT(straight[1], 0.8);
+    d.errors.shift_mm = {0.37 * d.array.pitch_mm[0], 0};
+    const auto shifted = edges();
+    EXPECT_LT(shifted[0], 0.2);
+    EXPECT_GT(shifted[1], 0.8);
 }
 
 class Fields : public testing::TestWithParam<double> {};

@@ -116,6 +116,16 @@ TEST(Zone, IsTheorysWhereTheLensIsSharpAtTheEye) {
     }
 }
 
+// Elemental images stay where they are made, and a lens that is shifted by s sees of them e s - g x/E: 0.37 pitches here.
+TEST(Zone, MovesWithAShiftedArray) {
+    Display d = many_lenses(sharp_at_eye);
+    d.errors.shift_mm = {1.5, 0};
+    const auto [low, high] = both(zone_of(d).figures.at("horizontal").at("wrong_50_percent_deg"));
+    const double scale = 1 + 8 / zone_eye_mm, pixel = 0.025 / 2 / 8 / degree;
+    EXPECT_NEAR(low, std::atan(scale * (1.5 - 2) / 8) / degree, 2 * pixel);
+    EXPECT_NEAR(high, std::atan(scale * (1.5 + 2) / 8) / degree, 2 * pixel);
+}
+
 // Elemental images at the lens pitch: the outermost lenses, more than a hundredth of all, go first.
 TEST(Zone, IsNarrowerForImagesMadeForInfinity) {
     Display d = many_lenses(sharp_at_eye);

@@ -191,6 +191,7 @@ Sight EyeRays::look_along(const Vec3d& at, const Vec3d& to, double a, double b) 
             x,
             y,
             point(base_axis.x + from_base.x, base_axis.y + from_base.y),
+            {base_.i + cell.i, base_.j + cell.j},
             scene_.ideal ? cosines(scene_, extent, on_panel, ray, cell) : 1};
 }
 

@@ -23,14 +23,14 @@ std::vector<Choice> even_choices(int count, std::uint32_t set = 0);
 
 /// The end of a line of sight.
 struct Sight {
-    bool on_screen = true;  // it aims at a point in front of the panel; if not, it is not followed and does not count
-    double light = 0;       // radiance, 1 along a white panel's normal; 0: it is blocked, or ends beside the panel
-    bool through = false;   // it gets through the array; if not, the members below have no meaning
-    bool by_lens = false;   // it meets a lens on its way; in `clear` and `plate` others pass between the caps
-    double x = 0, y = 0;    // end in the panel's plane, mm from its centre, display frame
-    Vec3d lens{};           // where the axis of the cell that it passes meets the vertex plane, mm, display frame
-    double cosines = 1;     // with ideal lenses: the cosine to the lens's axis below the lens over that above it
-    bool operator==(const Sight&) const = default;
+    bool on_screen = true;        // it aims at a point in front of the panel; if not, it is not followed and does not count
+    double light = 0;             // radiance, 1 along a white panel's normal; 0: it is blocked, or ends beside the panel
+    bool through = false;         // it gets through the array; if not, the members below have no meaning
+    bool by_lens = false;         // it meets a lens on its way; in `clear` and `plate` others pass between the caps
+    double x = 0, y = 0;          // end in the panel's plane, mm from its centre, display frame
+    Vec3d lens{};                 // where the axis of the cell that it passes meets the vertex plane, mm, display frame
+    optics::Cell<double> cell{};  // that cell's column and row
+    double cosines = 1;           // with ideal lenses: the cosine to the lens's axis below the lens over that above it
 };
 
 /// Lines of sight of a display, with its diffuser if it has one. Eyes and points are in the display's frame, mm, if nothing else

@@ -47,8 +47,8 @@ std::int64_t OwnLens::whole_images() const {
     const Lattice<double>& lattice = pickup_.lattice();
     for (double j = 0; j < lattice.count[1]; ++j)
         for (double i = 0; i < lattice.count[0]; ++i) {
-            const auto lens = optics::in_display(lattice, optics::axis_in_array(lattice, optics::Cell<double>{i, j}));
-            whole += is_whole(lens.x * pickup_.scale, lens.y * pickup_.scale);
+            const auto centre = pickup_.image_centre({i, j});
+            whole += is_whole(centre.x, centre.y);
         }
     return whole;
 }
@@ -59,13 +59,8 @@ double OwnLens::share(const Vec3d& eye, std::span<const Choice> choices) const {
         const Sight sight = rays_.look_through(eye, rays_.aim(eye, choice), choice[2], choice[3]);
         if (!(sight.light > 0 && sight.by_lens)) continue;
         const Lattice<double>& lattice = pickup_.lattice();
-        double x = sight.lens[0] * pickup_.scale, y = sight.lens[1] * pickup_.scale;
+        const auto [x, y] = pickup_.image_centre_beside(sight.cell, sight.x, sight.y);
         const auto off = optics::to_array(lattice, sight.x - x, sight.y - y);
-        if (lattice.strips) {  // of a strip's image the point of its middle line beside the point that is seen
-            const auto along = optics::to_display(lattice, 0., off.y);
-            x += along.x;
-            y += along.y;
-        }
         if (!is_whole(x, y)) continue;
         all += sight.light;
         if (optics::in_cell(lattice, off.x / pickup_.scale, off.y / pickup_.scale)) own += sight.light;

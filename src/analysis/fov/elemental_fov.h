@@ -15,8 +15,8 @@ namespace lfdsim {
 
 /// The share of light from own elemental images: of the light that an eye sees of a white, Lambertian panel through lenses whose
 /// whole elemental image lies on it, the part that comes from the image of the lens that it passed. It depends on no content,
-/// picture or pixels: an elemental image is the cell, scaled to the pitch p', about the point where the line from the viewer that
-/// images are made for, through the lens's nodal points, meets the panel.
+/// picture or pixels: an elemental image is the cell, scaled to the pitch p', about the centre that the content's pick-up gives it:
+/// that of the lens as described, or as built.
 class OwnLens {
   public:
     /// A valid display, with its diffuser or as light leaves the lenses.

@@ -13,13 +13,7 @@ namespace {
 /// Returns whether the middle of the elemental image of the lens that the line passes lies on the panel; of a strip, the point of
 /// the image's middle line beside the line's end.
 bool image_on_panel(const Pickup& pickup, const Panel& panel, const Sight& s) {
-    double x = s.lens[0] * pickup.scale, y = s.lens[1] * pickup.scale;
-    const Lattice<double>& lattice = pickup.lattice();
-    if (lattice.strips) {
-        const auto along = optics::to_display(lattice, 0., optics::to_array(lattice, s.x - x, s.y - y).y);
-        x += along.x;
-        y += along.y;
-    }
+    const auto [x, y] = pickup.image_centre_beside(s.cell, s.x, s.y);
     const double half = 0.5 * panel.pixel_pitch_mm;
     return std::abs(x) <= half * double(panel.pixels[0]) && std::abs(y) <= half * double(panel.pixels[1]);
 }
@@ -52,9 +46,8 @@ SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Displa
         if (s.light > 0 && owner.owned) {
             const Lattice<double>& lattice = pickup.lattice();
             // Columns are counted in halves of the pitch, since staggered rows are shifted by half of it.
-            const auto off = optics::to_array(lattice, owner.x - s.lens[0], owner.y - s.lens[1]);
-            const std::pair way{std::lround(2 * off.x / lattice.pitch[0]),
-                                std::lround(optics::across(lattice, off.y) / lattice.pitch[1])};
+            const auto to = optics::axis_in_array(lattice, owner.lens), from = optics::axis_in_array(lattice, s.cell);
+            const std::pair way{std::lround(2 * (to.x - from.x) / lattice.pitch[0]), std::lround(owner.lens.j - s.cell.j)};
             wrong += way != std::pair{0L, 0L};
             ++towards[way];
         } else {

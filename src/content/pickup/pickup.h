@@ -20,6 +20,7 @@ struct NodalLine {
     double x, y, mx, my;
     bool owned;         // false: the nearest elemental image belongs to no lens, the pixel stays black
     bool dark = false;  // none of its light leaves the lens; its pixel is black, too
+    optics::Cell<double> lens{};
 };
 
 /// The elemental images of a display. Panel points are in mm from the panel's centre.
@@ -88,12 +89,34 @@ class Pickup {
                 (c.x - x) * inverse_gap_ + slope.x,
                 (c.y - y) * inverse_gap_ + slope.y,
                 optics::holds(lattice_, lens),
-                !lit};
+                !lit,
+                lens};
     }
 
     const Lattice<double>& lattice() const { return lattice_; }
     /// Returns whether lenses differ, so that pixels of a column or row have nothing in common.
     bool irregular() const { return moved_ != nullptr; }
+
+    /// Returns the centre of a lens's elemental image on the panel, in the display's frame, mm: e C; of a misaligned lens
+    /// F - g (V - R)/(D' - z_R), V = (0, 0) the viewer.
+    optics::Vec2<double> image_centre(optics::Cell<double> lens) const {
+        if (!moved_) {
+            const auto axis = optics::in_display(lattice_, optics::axis_in_array(lattice_, lens));
+            return {axis.x * scale, axis.y * scale};
+        }
+        const Nodal at = nodal(lens);
+        const auto front = optics::in_display(lattice_, at.front), rear = optics::in_display(lattice_, at.rear);
+        const double slope = 1 / (viewer_ - z_rear - at.up) / at.per_gap;  // 0 of a viewer at infinity
+        return {front.x + rear.x * slope, front.y + rear.y * slope};
+    }
+
+    /// Returns the centre of a lens's elemental image; of a strip's, the point of its middle line beside the panel point (x, y).
+    optics::Vec2<double> image_centre_beside(optics::Cell<double> lens, double x, double y) const {
+        const auto centre = image_centre(lens);
+        if (!lattice_.strips) return centre;
+        const auto along = optics::to_display(lattice_, 0., optics::to_array(lattice_, x - centre.x, y - centre.y).y);
+        return {centre.x + along.x, centre.y + along.y};
+    }
 
     /// The position of a panel point in its elemental image: along the array's axes, in widths and heights of the image, 0 at the
     /// centre, -0.5 to 0.5.
@@ -103,11 +126,8 @@ class Pickup {
     };
     ElementalPosition place(double x, double y) const {
         const NodalLine l = line(x, y);
-        auto off = optics::to_array(lattice_, x - l.x * scale, y - l.y * scale);
-        if (moved_) {
-            const auto centre = image_centre(owner_of_moved(x, y));
-            off = optics::to_array(lattice_, x - centre.x, y - centre.y);
-        }
+        const auto centre = moved_ ? image_centre(l.lens) : optics::Vec2<double>{l.x * scale, l.y * scale};
+        const auto off = optics::to_array(lattice_, x - centre.x, y - centre.y);
         return {off.x / (lattice_.pitch[0] * scale), lattice_.strips ? 0 : off.y / (lattice_.pitch[1] * scale), l.owned};
     }
 
@@ -139,14 +159,6 @@ class Pickup {
                 {at.x + moved.rear.x, at.y + moved.rear.y},
                 1 / (1 / inverse_gap_ + moved.front.z),
                 moved.rear.z};
-    }
-
-    /// Returns the centre of a lens's elemental image on the panel, F - g (V - R)/(D' - z_R), V = (0, 0) the viewer.
-    optics::Vec2<double> image_centre(optics::Cell<double> lens) const {
-        const Nodal at = nodal(lens);
-        const auto front = optics::in_display(lattice_, at.front), rear = optics::in_display(lattice_, at.rear);
-        const double slope = 1 / (viewer_ - z_rear - at.up) / at.per_gap;  // 0 of a viewer at infinity
-        return {front.x + rear.x * slope, front.y + rear.y * slope};
     }
 
     /// Returns the lens that would own a panel point if no lens were misaligned.
@@ -183,7 +195,7 @@ class Pickup {
         const auto through =
             optics::in_display(lattice_, optics::Vec2<double>{at.rear.x + shift.x - mx * at.up, at.rear.y + shift.y - my * at.up});
         const auto slope = optics::to_display(lattice_, mx, my);
-        return {through.x, through.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit};
+        return {through.x, through.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit, lens};
     }
 
     /// Returns the line of a panel point under a strip: it lies in the plane of light of the slope m_x = (x'_c - x'_P)/g through
@@ -216,7 +228,7 @@ class Pickup {
         const double rise = p.y + my * (reduced_top_ - top_z_ + z_rear);
         const auto at = optics::in_display(lattice_, optics::Vec2<double>{centre, rise});
         const auto slope = optics::to_display(lattice_, mx, my);
-        return {at.x, at.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit};
+        return {at.x, at.y, slope.x, slope.y, optics::holds(lattice_, lens), !lit, lens};
     }
 
     // Returns the column or row of the lens at a position from the array's centre; outside the count where there is none.
