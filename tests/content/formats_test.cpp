@@ -2,7 +2,7 @@
 #include "image/formats/encoding.h"
 #include "image/formats/image_file.h"
 #include "refused.h"
-#include "small_world.h"
+#include "seen_square.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,26 +11,6 @@
 namespace {
 
 using namespace small_world;
-
-Image photo(const fs::path& file) {
-    Display d = display();
-    d.camera.target_mm = {0, 0, resolve(d).vertex_plane_mm};
-    const Geometry g = resolve(d);
-    Job job;
-    return reference_photograph(d, g, ContentScene(load_model(file), d, g), 0, {}, job).image;
-}
-
-/// "red" and so on, of the place (x, y) of a square from -1 to 1 that is white where fully lit.
-std::string colour_at(const Image& image, double x, double y) {
-    const float* const c = image.at(int(120 + 50 * x), int(80 - 50 * y));
-    const auto on = [&](int k) { return double(c[k]) / facing_light > 0.9; };
-    const auto off = [&](int k) { return double(c[k]) / facing_light < 0.1; };
-    if (on(0) && on(1) && on(2)) return "white";
-    if (on(0) && off(1) && off(2)) return "red";
-    if (off(0) && on(1) && off(2)) return "green";
-    if (off(0) && off(1) && on(2)) return "blue";
-    return off(0) && off(1) && off(2) ? "black" : "other";
-}
 
 // Red, green above; blue, white below.
 void write_quarters(const Folder& folder) {
@@ -47,12 +27,6 @@ double aspect(const fs::path& file) {
     const Vec3d half = half_size_mm({load_model(file)}, d, resolve(d));
     return half[0] / half[1];
 }
-
-constexpr const char* square = "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n";
-std::string ply(const std::string& header, const std::string& body) {
-    return "ply\nformat ascii 1.0\n" + header + "end_header\n" + body;
-}
-const std::string xyz = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
 
 TEST(Ply, ColoursOfFaces) {
     Folder folder;

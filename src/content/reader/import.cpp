@@ -12,6 +12,7 @@
 #include "content/reader/limits/not_shown.h"
 #include "content/reader/limits/refusal.h"
 #include "content/reader/limits/warnings.h"
+#include "content/reader/limits/whole_file.h"
 #include "content/reader/ply/ply_loader.h"
 #include "content/reader/repairs.h"
 #include "content/reader/textures.h"
@@ -25,8 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <stdexcept>
 
@@ -319,11 +318,6 @@ std::string lower_ending(const std::string& file) {
     return ending;
 }
 
-std::string bytes_of(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 }  // namespace
 
 Model import(const std::filesystem::path& file, const std::string& up) {
@@ -337,15 +331,25 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     int exponent = 0;  // of the power of two by which positions are multiplied as long as Assimp has them
     folder->edited = [&](const std::string& name) -> std::optional<std::string> {
         const std::string ending = lower_ending(name);
+        const bool has_positions = ending == ".obj" || ending == ".off" || ending == ".stl";
+        bool changed = is_marked(name);
         if (ending == ".mtl")
-            return readable_materials(bytes_of(name), std::filesystem::path(name).filename().string(), tilings, not_shown);
-        if (ending != ".obj" && ending != ".off" && ending != ".stl") return {};
-        const std::string text = bytes_of(name);
-        if (ending == ".obj") note_free_forms(text, not_shown);
-        auto scaled = readable_positions(text, ending);
-        if (!scaled) return {};
-        exponent = scaled->exponent;
-        return std::move(scaled->text);
+            return readable_materials(unmarked_bytes(name), std::filesystem::path(name).filename().string(), tilings, not_shown);
+        if (!has_positions && !changed) return {};
+        std::string text = unmarked_bytes(name);
+        if (ending == ".obj") {
+            note_free_forms(text, not_shown);
+            changed |= separate_libraries(text);
+        }
+        if (ending == ".stl") {
+            changed |= lower_keywords(text);
+            changed |= invert_materialise_bits(text);
+        }
+        if (auto scaled = has_positions ? readable_positions(text, ending) : std::nullopt) {
+            exponent = scaled->exponent;
+            return std::move(scaled->text);
+        }
+        return changed ? std::optional(std::move(text)) : std::nullopt;
     };
     choose_loaders(importer, file, *folder, not_shown);
     auto* warnings = new Warnings;  // owned by the logger

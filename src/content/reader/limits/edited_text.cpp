@@ -5,6 +5,7 @@
 #include <strings.h>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
@@ -98,6 +99,15 @@ std::string three_numbers(std::string_view colour, const std::string& place) {
     return all;
 }
 
+// Returns whether an STL file is binary: its size is that of a header and as many facets as it counts, as Assimp decides, too.
+constexpr std::size_t stl_header = 84, stl_facet = 50;
+bool is_binary_stl(std::string_view bytes) {
+    std::uint32_t facets = 0;
+    if (bytes.size() < stl_header) return false;
+    std::memcpy(&facets, bytes.data() + stl_header - sizeof facets, sizeof facets);
+    return bytes.size() == stl_header + stl_facet * std::size_t(facets);
+}
+
 }  // namespace
 
 std::optional<ScaledText> readable_positions(std::string_view text, std::string_view ending) {
@@ -137,6 +147,51 @@ std::optional<ScaledText> readable_positions(std::string_view text, std::string_
         out.append(found->rest) += '\n';
     }
     return ScaledText{std::move(out), exponent};
+}
+
+bool lower_keywords(std::string& text) {
+    if (is_binary_stl(text)) return false;
+    bool changed = false;
+    const auto lower = [&](std::string_view word) {
+        for (std::size_t i = std::size_t(word.data() - text.data()), end = i + word.size(); i < end; ++i) {
+            if (text[i] < 'A' || text[i] > 'Z') continue;
+            text[i] = char(text[i] - 'A' + 'a');
+            changed = true;
+        }
+    };
+    std::string_view rest = text;
+    while (!rest.empty()) {
+        std::string_view line = next_line(rest);
+        const std::string_view key = next_word(line);
+        lower(key);
+        if (!key.ends_with("solid")) lower(next_word(line));  // "normal" or "loop"; after "solid" comes a name
+    }
+    return changed;
+}
+
+bool invert_materialise_bits(std::string& bytes) {
+    if (!is_binary_stl(bytes) || bytes.substr(0, 80).find("COLOR=") == std::string::npos) return false;
+    bool coloured = false;
+    for (std::size_t end = stl_header + stl_facet; end <= bytes.size(); end += stl_facet)
+        coloured = coloured || bytes[end - 2] != 0 || bytes[end - 1] != 0;
+    for (std::size_t end = stl_header + stl_facet; coloured && end <= bytes.size(); end += stl_facet)
+        bytes[end - 1] = char(bytes[end - 1] ^ 0x80);
+    return coloured;
+}
+
+bool separate_libraries(std::string& text) {
+    bool changed = false;
+    for (std::size_t at = text.find("mtllib "); at != std::string::npos; at = text.find("mtllib ", at + 1)) {
+        if (at > 0 && text[at - 1] != '\n') continue;
+        const std::string line = text.substr(at, text.find('\n', at) - at);
+        const char* const end = strcasestr(line.c_str(), ".mtl ");
+        if (!end) continue;
+        const std::size_t after = at + std::size_t(end - line.c_str()) + 4, next = text.find_first_not_of(" \t", after);
+        const bool last = next == std::string::npos || text[next] == '\r' || text[next] == '\n';
+        text.replace(after, next - after, last ? "" : "\nmtllib ");
+        changed = true;
+    }
+    return changed;
 }
 
 void note_free_forms(std::string_view text, NotShown& not_shown) {

@@ -21,6 +21,18 @@ struct ScaledText {
 /// needed, or if positions are unusual. `ending`: ".obj", ".off" or ".stl".
 std::optional<ScaledText> readable_positions(std::string_view text, std::string_view ending);
 
+/// Writes the keywords of a text STL file in small letters, the only ones that Assimp knows, and leaves names and binary files
+/// alone. This function and the next two return whether they changed the text.
+bool lower_keywords(std::string& text);
+
+/// Inverts bit 15 of the facets of a binary STL file with Materialise's "COLOR=" in its header: set, it means the header's colour,
+/// and clear, one of the facet's own, but Assimp takes it the other way round, as VisCAM does. If all attributes are 0, no facet is
+/// coloured, and the file is right as it is.
+bool invert_materialise_bits(std::string& bytes);
+
+/// Gives each file of "mtllib a.mtl b.mtl" a line of its own, without blanks behind it: Assimp takes the line for one name.
+bool separate_libraries(std::string& text);
+
 /// Notes what else of an OBJ file Assimp leaves out: free-form curves and surfaces.
 void note_free_forms(std::string_view text, NotShown&);
 

@@ -3,8 +3,11 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace lfdsim::reader {
 
@@ -16,6 +19,21 @@ inline std::optional<std::string> whole_file(Assimp::IOSystem& io, const std::st
     bytes.resize(bytes.empty() ? 0 : stream->Read(bytes.data(), 1, bytes.size()));
     io.Close(stream);
     return bytes;
+}
+
+/// The byte order mark of UTF-8, which most of Assimp's loaders take for a part of the first word.
+inline constexpr std::string_view mark = "\xef\xbb\xbf";
+
+/// Returns whether a file begins with the mark; unmarked_bytes() returns what follows it, or the whole file.
+inline bool is_marked(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    char first[mark.size()] = {};
+    return stream.read(first, sizeof first) && std::string_view(first, sizeof first) == mark;
+}
+inline std::string unmarked_bytes(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (is_marked(file)) stream.ignore(mark.size());
+    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace lfdsim::reader
