@@ -59,6 +59,8 @@ def pixels(array: Any, name: str, needed: int = 4, *, white: float = 1) -> NDArr
         given = np.asarray(array)
     except (ValueError, TypeError) as error:
         raise TypeError(f"{name} is not a picture: {error}") from None
+    if np.ma.is_masked(array):
+        raise InputError([(name, f"has masked values; give {name}.filled(value), with the value that they should have")])
     codes = given.dtype.kind == "u" and given.dtype.itemsize <= 2
     if given.dtype.kind != "f" and not codes:
         remedy = f"; if these are codes of 0 to 255, {name}.astype(numpy.uint8)" if given.dtype.kind in "iu" else ""

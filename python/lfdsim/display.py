@@ -67,6 +67,13 @@ class Display:
             return None
         raise _unknown(key)
 
+    def __contains__(self, key: object) -> bool:
+        """Whether keys() has the key, or it is that of a table that has a value."""
+        return isinstance(key, str) and (key in self._all() or any(name.startswith(key + ".") for name in self._all()))
+
+    def __iter__(self) -> Iterator[str]:
+        return self.keys()
+
     def keys(self) -> Iterator[str]:
         """The keys that have a value, in the order of a description, those that are absent but allowed among them."""
         return iter(self._all())

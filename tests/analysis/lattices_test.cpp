@@ -43,6 +43,35 @@ TEST(Lattices, FieldOfViewIsThatOfTheExactRay) {
     }
 }
 
+// Images stay where the description has its lenses: their range moves by shift/g, however the lenses got there; images made for the
+// lenses as built move with them.
+TEST(Lattices, FieldOfViewIsOfTheImagesThatThePanelShows) {
+    const Display described = display(LatticeKind::square, 4, 1e4);
+    const auto middle_deg = [](const Display& d) {
+        Job job;
+        Parts parts(job, 2, own_range_parts, 1);
+        const OwnRange found = where_own(OwnLens(d, false), arc(d, resolve(d), 600, 0), 0.05, 0, parts);
+        return 0.5 * (found.at[0] + found.at[1]);
+    };
+    Display shifted = described, by_table = described;
+    shifted.errors.shift_mm = {0.09, 0};
+    const Lattice<double> lattice = resolve(described).lattice;
+    std::vector<GivenLensError> all;
+    for (std::int64_t j = 0; j < std::int64_t(lattice.count[1]); ++j)
+        for (std::int64_t i = 0; i < std::int64_t(lattice.count[0]); ++i) {
+            GivenLensError e;
+            e.i = i, e.j = j;
+            e.error.aside_mm = {0.09, 0};
+            all.push_back(e);
+        }
+    by_table.errors.given = std::make_shared<const std::vector<GivenLensError>>(std::move(all));
+    for (Display* d : {&shifted, &by_table}) {
+        EXPECT_NEAR(middle_deg(*d), std::atan(0.09 / 4) / degree, 0.1);
+        d->content.made_for = MadeFor::built;
+        EXPECT_NEAR(middle_deg(*d), 0, 0.1);
+    }
+}
+
 // An eye at the distance that images are made for sees one line of the panel through each strip, askew to the pixels by the slant.
 // Pixels belong to the view that their centres are meant for, a pixel wide along the row: a pixel on the line is as far from it as
 // the sum of two even spreads, a along the row and a tan(slant). It is at most a/2 with probability 1 - tan(slant)/4.

@@ -37,6 +37,10 @@ class Named(TinyTest):
             bad = good.astype(float)
             bad[7, 5, 1] = value
             self.refused(lfdsim.InputError, f"panel: holds {text} in channel G at column 5, row 7", lfdsim.render, d, bad)
+        hidden = np.ma.masked_array(good.astype(float), mask=np.zeros(good.shape, bool))
+        lfdsim.render(d, hidden)  # nothing of it is masked
+        hidden[:, 5] = np.ma.masked
+        self.refused(lfdsim.InputError, r"panel: has masked values; give panel\.filled", lfdsim.render, d, hidden)
         # Values of 0 to 255 are no light, and are not shown 128 times as bright as white without a word.
         codes = np.full((48, 88, 3), 128, np.uint8)
         for doubtful, remedy in [

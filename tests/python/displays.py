@@ -42,6 +42,10 @@ class Keys(TinyTest):
             d = lfdsim.Display.load(path)
             for key in d.keys():
                 d[key]
+                self.assertIn(key, d)
+            self.assertEqual(list(d), list(d.keys()))
+            self.assertIn("lens", d)
+            self.assertNotIn("array.gap", d)
             self.assertEqual(d.to_dict()["panel"]["pixels"], d["panel.pixels"])
 
 
