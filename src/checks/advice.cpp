@@ -3,6 +3,7 @@
 #include "checks/advice.h"
 
 #include "checks/advice_parts.h"
+#include "geometry/resolve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +72,7 @@ void advise_on_lenses(Advised& a) {
         a.say(
             "the lenses are {} ({:.4g} of {:.4g} mm): they can show only one view. Use wider lenses (--set array.pitch_mm), or a "
             "panel with smaller pixels (--set panel.pixel_pitch_mm)",
-            t.along[few].views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", d.array.pitch_mm[few],
+            t.along[few].views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", lens_pitch_mm(g, few),
             d.panel.pixel_pitch_mm);
     else if (drift(drifts) > 0.5 && !strips)  // which lean so that their views are not whole numbers
         a.say("a lens covers {:.4f} panel pixels, not a whole number: across the array this adds up to {:.2g} pixels",

@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "checks/advice_parts.h"
 #include "geometry/dark_bands.h"
+#include "geometry/resolve.h"
 #include "geometry/seen_width.h"
 
 #include <algorithm>
@@ -21,13 +22,13 @@ double best_distance_mm(const Display& d, const Geometry& g, const Theory& t, do
     const bool there = central > g.top_z_mm - g.vertex_plane_mm && central < eye_mm / 2;
     // A diffuser at d above H' that spreads light over p there adds g p/d (1 - d/E), times its profile's width, to what an eye sees
     // of the panel at once.
-    const Pitch& pitch = d.array.pitch_mm;
+    const std::array<double, 2> pitch{lens_pitch_mm(g, 0), lens_pitch_mm(g, 1)};
     const double spread = g.gap_mm * pitch[axis_of_eyes(g)] * even_width_of(d.diffuser ? d.diffuser->profile : Profile::box);
     const std::size_t axis = axis_of_eyes(g);
     const double away = eye_mm - from_vertex,
                  left = most_seen_share * t.along[axis].elemental_pitch_mm - seen_through_lens_mm(g, away),
                  least = left > 0 ? 1.05 / (left / spread + 1 / away) + from_vertex : 0;
-    return std::min(std::max(there ? central : 20 * pitch.least(), least), eye_mm / 2);
+    return std::min(std::max(there ? central : 20 * std::min(pitch[0], pitch[1]), least), eye_mm / 2);
 }
 
 /// Returns whether the pupil's defocus closes the gaps as a diffuser would: an eye with a pupil of diameter A, focused at F, sees
@@ -35,7 +36,7 @@ double best_distance_mm(const Display& d, const Geometry& g, const Theory& t, do
 /// most 0.08 of dots of that pitch, twice the fourth lobe of 2 J1(x)/x.
 bool joined_by_pupil(const Display& d, const Geometry& g, double eye) {
     return d.camera.pupil_diameter_mm.value_or(0) * std::abs(1 - eye / g.focus_distance_mm) >=
-           3 * std::max(d.array.pitch_mm[0], d.array.pitch_mm[1]);
+           3 * std::max(lens_pitch_mm(g, 0), lens_pitch_mm(g, 1));
 }
 
 /// "0.8 degrees" or, where the axes differ, "0.8 x 0.6 degrees"; four digits.

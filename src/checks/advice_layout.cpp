@@ -34,7 +34,7 @@ void advise_on_layout(Advised& a) {
     const Geometry& g = a.geometry;
     if (!(d.content.viewing_distance_mm > g.rear_principal_mm)) return;  // there are no such elemental images
     if (!d.array.count || is_strips(d.array)) return;                    // without a count lenses reach beyond the panel by design
-    const double scale = a.theory.along[0].elemental_pitch_mm / d.array.pitch_mm[0];
+    const double scale = a.theory.along[0].elemental_pitch_mm / g.lattice.pitch[0];  // p'/p, p as built
     // Shares beside the panel with and without offset and rotation tell these two causes from elemental images that are too wide.
     LensArray straight = d.array;
     straight.offset_mm = {};

@@ -87,8 +87,7 @@ void advise_on_scene(Advised& a) {
     const bool at_lenses = std::abs(from_lens) <= widest_aperture_mm(g);  // where all views agree
     if (a.display.lens.type() == LensType::pinhole || at_lenses || is_sharp(a.theory, from_lens)) return;
     const double from_panel = camera_distance_mm(a.display);
-    const SharpRange by_pixel = sharp_by_pixel(g, a.theory, from_panel),
-                     by_lens = sharp_by_lens(a.display, g, a.theory, from_panel);
+    const SharpRange by_pixel = sharp_by_pixel(g, a.theory, from_panel), by_lens = sharp_by_lens(g, a.theory, from_panel);
     const bool within = by_lens.holds(g.content_depth_mm);
     a.say(
         "the content's centre, {}, is outside the depth of field by the pixel ({}), {} that by the lens ({}): its detail is {} the "

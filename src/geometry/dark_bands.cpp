@@ -46,8 +46,8 @@ class DiffuserTransfer {
     DiffuserTransfer(const Display& d, const Geometry& g, std::size_t axis)
         : diffuser_(d.diffuser),
           height_mm_(d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0),
-          cosine_(std::cos(d.array.turn_deg() * degree)),
-          sine_(std::sin(d.array.turn_deg() * degree)) {}
+          cosine_(g.lattice.cos_turn),
+          sine_(g.lattice.sin_turn) {}
 
     double operator()(double across, double up) const {
         if (!diffuser_) return 1;
@@ -144,12 +144,12 @@ double michelson_of(const std::vector<double>& waves) {
 }  // namespace
 
 double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) {
-    const bool filled = d.array.aperture == Aperture::cell, round = !filled || g.pupil.radius_mm < outer_radius_mm(d.array);
+    const bool filled = d.array.aperture == Aperture::cell, round = !filled || g.pupil.radius_mm < outer_radius_mm(d, g);
     if (g.pupil.inner_z && round) return *g.pupil.inner_z;
     if (d.lens.is_thin() || stop_at_entrance(d, g)) return g.entrance_z_mm;
     const PlacedSurface& last = g.surfaces.back();
     return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,
-                              filled ? std::min(d.array.pitch_mm[axis] / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
+                              filled ? std::min(lens_pitch_mm(g, axis) / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
 }
 
 std::array<double, 2> joining_spread_mm(const Geometry& g) {
@@ -165,10 +165,9 @@ std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
     // Without an opaque surround light passes between the lenses too; a sheet of stops is black in any case.
     const bool strips = is_strips(d.array);
     if (d.array.surround != Surround::opaque && !d.lens.stop_radius_mm) return {0, strips ? nan : 0};
-    const double turn = d.array.turn_deg() * degree;
     Pupil pupil = g.pupil;
     if (d.array.aperture == Aperture::circle) pupil.cells = 1;
-    const bool whole = pupil.cells == 1 && pupil.radius_mm >= outer_radius_mm(d.array);
+    const bool whole = pupil.cells == 1 && pupil.radius_mm >= outer_radius_mm(d, g);
     if (strips) {
         const double half = std::min(pupil.radius_mm, 0.5 * pupil.cells * g.lattice.pitch[0]);
         return {whole ? 0 : michelson_of(strip_waves(g.lattice.pitch[0], half, {d, g, 0})), nan};
@@ -180,10 +179,10 @@ std::array<double, 2> band_contrast(const Display& d, const Geometry& g) {
     }
     std::array<double, 2> contrast{};
     for (const std::size_t axis : {0u, 1u}) {
-        const double height = d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0, pitch = d.array.pitch_mm[axis];
+        const double height = d.diffuser ? *g.diffuser_z_mm - aperture_plane_mm(d, g, axis) : 0, pitch = g.lattice.pitch[axis];
         // The waves run along the array's axis, the diffuser spreads along the display's.
-        const double across = axis == 0 ? std::cos(turn) : -std::sin(turn), up = axis == 0 ? std::sin(turn) : std::cos(turn);
-        std::vector<double> seen = lit_waves(pitch, d.array.pitch_mm[1 - axis], pupil);
+        const double c = g.lattice.cos_turn, s = g.lattice.sin_turn, across = axis == 0 ? c : -s, up = axis == 0 ? s : c;
+        std::vector<double> seen = lit_waves(pitch, g.lattice.pitch[1 - axis], pupil);
         for (std::size_t k = 0; d.diffuser && k < seen.size(); ++k) {
             const double frequency = double(k) / pitch;
             seen[k] *= spread_transform(*d.diffuser, 0, height, frequency * across) *

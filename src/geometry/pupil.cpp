@@ -1,6 +1,6 @@
 #include "geometry/pupil.h"
 
-#include "geometry/lens_misalignment.h"
+#include "geometry/resolve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,8 +58,7 @@ std::array<double, 2> light_width_mm(const Display& d, const Geometry& g) {
         double radius = s.semi_aperture_mm;
         if (d.lens.stop_radius_mm && s.z_mm == g.stop_z_mm) radius = std::min(radius, *d.lens.stop_radius_mm);
         for (std::size_t k = 0; k < 2; ++k) {
-            const double half =
-                d.array.aperture == Aperture::cell ? std::min(radius, 0.5 * d.array.pitch_mm[k] * pitch_scale(d.errors)) : radius;
+            const double half = d.array.aperture == Aperture::cell ? std::min(radius, 0.5 * lens_pitch_mm(g, k)) : radius;
             width[k] = std::min(width[k], 2 * g.gap_mm * half / std::abs(height));
         }
         const double power =

@@ -52,12 +52,12 @@ void glue(Geometry& g) {
     face.index_below = g.layers.empty() ? face.index_above : g.layers.back().index;
 }
 
-/// Sets D for lenses whose pitch is `scale` times that of the description: cells grow with it, holes do not.
-void clear_apertures(const LensArray& array, double scale, Geometry& g) {
+/// Sets D for lenses of the lattice's pitch: cells grow with it, holes do not.
+void clear_apertures(const LensArray& array, Geometry& g) {
     g.clear_aperture_mm.fill(2 * g.pupil.radius_mm);
     if (array.aperture != Aperture::cell) return;
     for (std::size_t k = 0; k < 2; ++k)
-        g.clear_aperture_mm[k] = std::min(g.clear_aperture_mm[k], g.pupil.cells * array.pitch_mm[k] * scale);
+        g.clear_aperture_mm[k] = std::min(g.clear_aperture_mm[k], g.pupil.cells * lens_pitch_mm(g, k));
 }
 
 /// Places the lens along z, in green light: its surfaces and planes, from array.gap_mm or array.base_z_mm.
@@ -100,7 +100,7 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     g.glued = is_flat(lowest_surface) && std::abs(g.base_z_mm - T) <= glue_mm && std::abs(lowest_surface.z_mm - T) <= glue_mm;
     if (g.glued) glue(g);
     g.pupil = pupil(g.surfaces, lens.stop_radius_mm, g.stop_z_mm);
-    clear_apertures(array, 1, g);
+    clear_apertures(array, g);
 }
 
 /// Moves the array as a whole by its errors (docs/model.md, "Errors"). The diffuser, the content and the camera stay, so that
@@ -128,7 +128,7 @@ void misplace_array(const Errors& e, const LensArray& array, Geometry& g) {
         l.per_pitch[k] = 1 / l.pitch[k];
         l.half_pitch[k] = l.pitch[k] / 2;
     }
-    clear_apertures(array, scale, g);
+    clear_apertures(array, g);
     g.array_width_mm *= scale;
     if (!l.strips) g.array_height_mm *= scale;
 }
@@ -209,6 +209,14 @@ Geometry meant_geometry(const Display& d, const Geometry& built) {
 
 bool stop_at_entrance(const Display& d, const Geometry& g) {
     return d.lens.stop_radius_mm && std::abs(g.stop_z_mm - g.entrance_z_mm) < 1e-9;
+}
+
+double lens_pitch_mm(const Geometry& g, std::size_t axis) {
+    return g.lattice.pitch[g.lattice.hexagonal || g.lattice.strips ? 0 : axis];
+}
+
+double outer_radius_mm(const Display& d, const Geometry& g) {
+    return outer_radius_mm(d.array) * (g.lattice.pitch[0] / d.array.pitch_mm[0]);
 }
 
 double widest_aperture_mm(const Geometry& g) { return std::max(g.clear_aperture_mm[0], g.clear_aperture_mm[1]); }

@@ -2,6 +2,7 @@
 #pragma once
 #include "geometry/geometry.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace lfdsim {
@@ -15,6 +16,12 @@ double middle_z_mm(const std::vector<SceneObject>&);
 
 /// Returns whether there is a stop in the entrance plane: rays from the viewer's side then pass it before they meet the lens.
 bool stop_at_entrance(const Display&, const Geometry&);
+
+/// Returns the lens pitch p of the array as built, mm along x' (axis 0) or y' (1); hexagons and strips have one.
+double lens_pitch_mm(const Geometry&, std::size_t axis);
+
+/// Returns the radius of the smallest disk around a cell of the array as built, mm; of strips p/2.
+double outer_radius_mm(const Display&, const Geometry&);
 
 /// Returns the clear aperture D, mm, along that axis of the array along which it is wider.
 double widest_aperture_mm(const Geometry&);

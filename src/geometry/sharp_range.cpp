@@ -2,7 +2,7 @@
 
 #include "base/constants.h"
 #include "checks/depth_words.h"
-#include "geometry/lens_misalignment.h"
+#include "geometry/resolve.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -47,10 +47,9 @@ SharpRange sharp_by_pixel(const Geometry& g, const Theory& t, double eye_mm) {
     return range_of_inverse(g, t.depth_near_per_mm, t.depth_far_per_mm, eye_mm);
 }
 
-SharpRange sharp_by_lens(const Display& d, const Geometry& g, const Theory& t, double eye_mm) {
+SharpRange sharp_by_lens(const Geometry& g, const Theory& t, double eye_mm) {
     const std::size_t axis = g.clear_aperture_mm[1] > g.clear_aperture_mm[0] && !g.lattice.strips ? 1 : 0;
-    const double L = t.central_depth_mm,
-                 pitches = std::max(d.array.pitch_mm[axis] * pitch_scale(d.errors) / g.clear_aperture_mm[axis], 1.);
+    const double L = t.central_depth_mm, pitches = std::max(lens_pitch_mm(g, axis) / g.clear_aperture_mm[axis], 1.);
     if (std::isnan(L)) return {no_depths, no_depths};
     if (std::isinf(L)) return range_between(g, -infinity, infinity, eye_mm);
     const double one = L * (1 - pitches), other = L * (1 + pitches);  // |1 - z/L| = p/D

@@ -35,7 +35,7 @@ SharpRange sharp_by_pixel(const Geometry&, const Theory&, double eye_mm);
 /// Returns the depth of field by the lens: where a lens's spot is no wider than the lens pitch, D |1 - z/L| <= p, along the axis
 /// of the wider D. Detail there is as fine as the lens pitch, however fine the pixels are. Contains the lenses, where the spot is
 /// D wide.
-SharpRange sharp_by_lens(const Display&, const Geometry&, const Theory&, double eye_mm);
+SharpRange sharp_by_lens(const Geometry&, const Theory&, double eye_mm);
 
 /// Describes a range in words: "from 21.5 to 280 mm in front of the lenses", or for two intervals "from 70 mm behind the lenses
 /// to infinity and from 90 mm in front of the lenses to the viewer"; "no depth up to the viewer" for none.

@@ -6,7 +6,6 @@
 #include "geometry/dark_bands.h"
 #include "geometry/geometry.h"
 #include "geometry/layers.h"
-#include "geometry/lens_misalignment.h"
 #include "geometry/resolve.h"
 #include "geometry/screen.h"
 #include "geometry/vec.h"
@@ -34,7 +33,7 @@ double exact_angle_deg(const Geometry& g, double width_mm) {
 /// Returns the figures along an axis of the array; L is the central depth, mm.
 AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size_t axis) {
     if (is_strips(d.array) && axis == 1) return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
-    const double a = d.panel.pixel_pitch_mm, p = d.array.pitch_mm[axis] * pitch_scale(d.errors), gap = g.gap_mm;
+    const double a = d.panel.pixel_pitch_mm, p = lens_pitch_mm(g, axis), gap = g.gap_mm;
     AxisTheory t{};
     t.fov_deg = 2 * std::atan(p / (2 * gap)) / degree;
     t.views = is_strips(d.array) ? p / (a * g.lattice.cos_turn) : p / a;
@@ -74,9 +73,7 @@ Theory theory(const Display& d, const Geometry& g) {
     const double inverse_L = pinhole ? nan : gap == f ? 0 : 1 / f - 1 / gap, L = inverse_L == 0 ? infinity : 1 / inverse_L;
 
     Theory t{};
-    t.fov_horizontal_deg =
-        is_strips(d.array) ? 2 * std::atan(d.array.pitch_mm[0] * pitch_scale(d.errors) / (2 * gap * g.lattice.cos_turn)) / degree
-                           : nan;
+    t.fov_horizontal_deg = is_strips(d.array) ? 2 * std::atan(g.lattice.pitch[0] / (2 * gap * g.lattice.cos_turn)) / degree : nan;
     t.focal_length_mm = pinhole ? nan : f;
     t.gap_mm = gap;
     t.central_depth_mm = L;

@@ -67,13 +67,14 @@ class Draw {
 std::array<double, 2> seen_contrast(const Display& d, const Geometry& g) {
     const EyeRays rays(d, g);
     const auto bin = [](double number) { return std::min(std::size_t((0.5 + 0.5 * number) * 32), std::size_t(31)); };
+    const double pitch = g.lattice.pitch[0];
     const auto axis = [&](double number, std::int64_t lenses) {  // of a lens
-        return (std::floor(0.5 * number * 0.5 * double(lenses)) + 0.5) * d.array.pitch_mm[0];
+        return (std::floor(0.5 * number * 0.5 * double(lenses)) + 0.5) * pitch;
     };
     std::array<std::vector<double>, 2> light{std::vector<double>(32), std::vector<double>(32)};
     for (const Choice& c : even_choices((1 << 16) * rays.more_for(d.camera.position_mm))) {
-        const Vec3d at = rays.point(axis(c[4], d.array.count->at(0)) + 0.5 * d.array.pitch_mm[0] * c[0],
-                                    axis(c[5], d.array.count->at(1)) + 0.5 * d.array.pitch_mm[0] * c[1]);
+        const Vec3d at = rays.point(axis(c[4], d.array.count->at(0)) + 0.5 * pitch * c[0],
+                                    axis(c[5], d.array.count->at(1)) + 0.5 * pitch * c[1]);
         const double seen = rays.look_through(d.camera.position_mm, at, c[2], c[3]).light;
         for (const std::size_t k : {0u, 1u}) light[k][bin(c[k])] += seen;
     }
@@ -139,6 +140,38 @@ TEST(Bands, OnePitchOfSpreadClosesThem) {
         d.diffuser->angle_deg = {angle, angle};
         for (const double contrast : band_contrast(d, resolve(d))) EXPECT_LT(contrast, 0.06) << n;
     }
+}
+
+// An array that errors stretch and turn has the bands of one that is described so.
+TEST(Bands, OfAStretchedAndTurnedArrayAreThoseOfItsPitchAndTurn) {
+    for (const LatticeKind lattice :
+         {LatticeKind::square, LatticeKind::rectangle, LatticeKind::brick, LatticeKind::hexagon, LatticeKind::strips})
+        for (const Aperture aperture : {Aperture::circle, Aperture::cell}) {
+            const bool strips = lattice == LatticeKind::strips, round = aperture == Aperture::circle;
+            Display described;
+            described.panel.pixels = {400, 300};
+            described.panel.pixel_pitch_mm = 0.1;
+            described.lens.kind = PlanoConvex{2.4, round ? 0.5 : 1.1, 0.5, 1.5, Facing::viewer};
+            if (!round) described.lens.stop_radius_mm = 0.5;
+            described.array.lattice = lattice;
+            described.array.aperture = aperture;
+            described.array.count = {24, strips ? 1 : 16};
+            described.array.gap_mm = 4.3;
+            described.array.pitch_mm = lattice == LatticeKind::rectangle ? Pitch(1.3, 1.1) : Pitch(1.3);
+            described.diffuser = Diffuser{60, {0.8, 0.5}, Profile::box};
+            Display built = described;
+            built.errors.pitch_ppm = 1e5;
+            built.errors.rotation_deg = 7;
+            for (double& pitch : described.array.pitch_mm) pitch *= 1.1;
+            (strips ? described.array.slant_deg.emplace() : described.array.rotation_deg) = strips ? -7 : 7;
+            const Geometry g = resolve(built), expected = resolve(described);
+            for (const std::size_t k : {0u, 1u}) {
+                if (strips && k == 1) continue;
+                EXPECT_NEAR(aperture_plane_mm(built, g, k), aperture_plane_mm(described, expected, k), 1e-12);
+                EXPECT_GT(band_contrast(built, g)[k], 0.05);
+                EXPECT_NEAR(band_contrast(built, g)[k], band_contrast(described, expected)[k], 1e-9) << int(lattice) << round << k;
+            }
+        }
 }
 
 }  // namespace

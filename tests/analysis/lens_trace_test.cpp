@@ -209,13 +209,13 @@ TEST(LensTrace, DiffuserAlongAnAxisOfTheTurnedArray) {
     Display d = shipped("desktop-asphere");
     d.diffuser->angle_deg = {4, 2};
     d.array.rotation_deg = 90;  // the array's x is the display's y
-    EXPECT_NEAR(diffuser_angle(d, {1, 0}), 1 * degree, 1e-12);
-    EXPECT_NEAR(diffuser_angle(d, {0, 1}), 2 * degree, 1e-12);
-    EXPECT_NEAR(diffuser_angle(d, {std::sqrt(0.5), std::sqrt(0.5)}), 3 * std::sqrt(0.5) * degree, 1e-12);
+    EXPECT_NEAR(diffuser_angle(d, resolve(d), {1, 0}), 1 * degree, 1e-12);
+    EXPECT_NEAR(diffuser_angle(d, resolve(d), {0, 1}), 2 * degree, 1e-12);
+    EXPECT_NEAR(diffuser_angle(d, resolve(d), {std::sqrt(0.5), std::sqrt(0.5)}), 3 * std::sqrt(0.5) * degree, 1e-12);
     d.diffuser->profile = Profile::gaussian;
-    EXPECT_NEAR(diffuser_angle(d, {std::sqrt(0.5), std::sqrt(0.5)}), std::sqrt(2.5) * degree, 1e-12);
+    EXPECT_NEAR(diffuser_angle(d, resolve(d), {std::sqrt(0.5), std::sqrt(0.5)}), std::sqrt(2.5) * degree, 1e-12);
     d.diffuser.reset();
-    EXPECT_EQ(diffuser_angle(d, {1, 0}), 0);
+    EXPECT_EQ(diffuser_angle(d, resolve(d), {1, 0}), 0);
 }
 
 }  // namespace

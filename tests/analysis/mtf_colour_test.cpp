@@ -126,7 +126,7 @@ void expect_that_of_nodal_rays(std::initializer_list<double> angles_deg, std::in
             for (const double depth : depths_mm) {
                 std::array<Offsets, 3> expected;
                 for (int c = 0; c < 3; ++c) expected[std::size_t(c)] = stripe_offsets(s.display(), c, depth, angle, 1);
-                for (const Direction& direction : directions(s.display())) {
+                for (const Direction& direction : directions(s.geometry())) {
                     const auto axis = std::size_t(direction.axis);
                     const MtfCurves m = mtf_curves(s, seen, depth, angle, direction);
                     const auto where = [&](double f) {
@@ -175,7 +175,7 @@ TEST(MtfOfColours, ABlackMatrixNarrowsTheImagesOfPixels) {
     Display d = coloured(SubpixelLayout::none, ContentSampling::pixel, false);
     d.panel.aperture_ratio = 0.36;
     const Subject s = subject_of(d, {});
-    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {0, 0, eye_mm}), depth, 0, directions(s.display()).front());
+    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {0, 0, eye_mm}), depth, 0, directions(s.geometry()).front());
     const std::vector<double> expected = stripe_offsets(d, 1, depth, 0, 1)[0];
     EXPECT_TRUE(m.channels.empty());
     for (std::size_t n = 0; n < m.frequencies_per_mm.size(); n += 10) {
@@ -188,7 +188,7 @@ TEST(MtfOfColours, ABlackMatrixNarrowsTheImagesOfPixels) {
 // By pixels, red's stripe shows what is a third of a pixel's image to its side.
 TEST(MtfOfColours, ContentByPixelsMakesFringesAsWideAsAThirdOfAPixelsImage) {
     const Subject s = subject_of(coloured(SubpixelLayout::rgb_stripe, ContentSampling::pixel, false), {});
-    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {0, 0, eye_mm}), 120, 0, directions(s.display()).front());
+    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {0, 0, eye_mm}), 120, 0, directions(s.geometry()).front());
     const double third = pixel * 120 / gap / 3;
     EXPECT_NEAR(m.channels[0].middle_mm.value - m.channels[1].middle_mm.value, -third, 0.02);
     EXPECT_NEAR(m.channels[2].middle_mm.value - m.channels[1].middle_mm.value, third, 0.02);
@@ -229,7 +229,7 @@ TEST(MtfOfColours, EdgesAreMadeForSubpixels) {
     for (const ContentSampling sampling : {ContentSampling::subpixel, ContentSampling::pixel}) {
         const Display d = coloured(SubpixelLayout::rgb_stripe, sampling, false);
         const Geometry g = resolve(d);
-        Bars bars = bars_across(directions(d).front(), g.vertex_plane_mm + 120);
+        Bars bars = bars_across(directions(g).front(), g.vertex_plane_mm + 120);
         bars.width_mm = 1e6;
         const auto panel = bars_panel(d, g, bars, 1);
         const optics::SummedImage& level = planes_of(panel->summed()).front();
@@ -257,7 +257,7 @@ TEST(MtfOfColours, EdgesAreMadeForSubpixels) {
 
 TEST(MtfOfColours, WithoutThemAllIsOne) {
     Subject s = subject_of(coloured(SubpixelLayout::none, ContentSampling::subpixel, false), {150});
-    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {0, 0, eye_mm}), 150, 0, directions(s.display()).front());
+    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {0, 0, eye_mm}), 150, 0, directions(s.geometry()).front());
     EXPECT_TRUE(m.channels.empty());
     for (std::size_t c = 0; c < 3; ++c) {
         EXPECT_EQ(m.below(0.5, c).found.value, m.below(0.5).found.value);
@@ -271,7 +271,7 @@ TEST(MtfOfColours, OfOtherLayoutsIsThatOfTheory) {
         for (const ContentSampling sampling : {ContentSampling::subpixel, ContentSampling::pixel}) {
             const Subject s = subject_of(coloured(layout, sampling, false), {});
             const SeenInColours seen = seen_in_colours(s, {0, 0, eye_mm});
-            for (const Direction& direction : directions(s.display())) {
+            for (const Direction& direction : directions(s.geometry())) {
                 const MtfCurves m = mtf_curves(s, seen, 140, 0, direction);
                 for (std::size_t n = 0; n < m.frequencies_per_mm.size(); n += 10)
                     for (std::size_t c = 0; c < 3; ++c)

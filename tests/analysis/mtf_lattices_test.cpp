@@ -122,7 +122,7 @@ TEST(MtfOfStrips, IsThatOfTheNodalRaysDifferencesAndOfTheory) {
                     return fmt::format("display {}: pitch {}, slant {}, {} mm, {} degrees", k, d.array.pitch_mm[0],
                                        *d.array.slant_deg, depth, angle);
                 };
-                const MtfCurves m = mtf_curves(s, seen, depth, angle, directions(d).front());
+                const MtfCurves m = mtf_curves(s, seen, depth, angle, directions(s.geometry()).front());
                 ASSERT_EQ(m.missing, "") << where();
                 const Offsets expected = offsets(d, depth, angle, 1);
                 const double last = pixel_limit_per_mm(s, m.direction, s.geometry().vertex_plane_mm + depth);
@@ -193,7 +193,7 @@ TEST(MtfOfHexagons, IsThatOfTheory) {
         d.diffuser.reset();
         const Subject s = subject_of(d, {});
         const SeenInColours seen = seen_in_colours(s, {0, 0, 1200});
-        for (const Direction& direction : directions(d)) {
+        for (const Direction& direction : directions(s.geometry())) {
             const MtfCurves m = mtf_curves(s, seen, 160, 0, direction);
             ASSERT_TRUE(m.has_theory() && m.missing.empty());
             for (std::size_t n = 0; n < m.frequencies_per_mm.size() && m.frequencies_per_mm[n] < 0.6; n += 4)

@@ -183,7 +183,7 @@ TEST(Mtf, ResolutionIsTheLeastOfMtf50AndTheLimits) {
 TEST(Mtf, IsFollowedToOneHalfOrToTheLensesLimit) {
     const Subject s(first_order({17, {3000, 2000}, 38, 620, {}, LensType::plano_convex}).display, {}, {});
     const double angle = 15.12, x = 620 * std::sin(angle * degree), z = 620 * std::cos(angle * degree);
-    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {x, 0, z}), 62, angle, directions(s.display()).front());
+    const MtfCurves m = mtf_curves(s, seen_in_colours(s, {x, 0, z}), 62, angle, directions(s.geometry()).front());
     ASSERT_EQ(m.missing, "");
     EXPECT_GT(m.spread_mm, 20);  // the halo
     EXPECT_NEAR(m.below(0.5).found.value, 0.106, 0.003);

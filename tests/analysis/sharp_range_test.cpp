@@ -26,7 +26,7 @@ TEST(SharpRange, HoldsWhereTheSpotIsNarrowEnough) {
         const Geometry g = resolve(d);
         const Theory t = theory(d, g);
         const double D = g.clear_aperture_mm[0], a = d.panel.pixel_pitch_mm, eye = 600, L = t.central_depth_mm;
-        const SharpRange lens = sharp_by_lens(d, g, t, eye), pixel = sharp_by_pixel(g, t, eye);
+        const SharpRange lens = sharp_by_lens(g, t, eye), pixel = sharp_by_pixel(g, t, eye);
         EXPECT_TRUE(lens.holds(0));
         EXPECT_FALSE(lens.holds(eye) || pixel.holds(eye));  // the eye is 600 mm from the panel
         through_infinity += std::isinf(pixel.behind.low) && !pixel.in_front.empty();

@@ -145,5 +145,23 @@ TEST(SpotDepth, QuarterOfAWave) {
     EXPECT_GT(quarter_wave_per_mm(-1000, 0.5, wavelength)[0], 0);
 }
 
+// The spot is that of the perfect lens: what it leaves out is said, and only that.
+TEST(SpotDepth, NamesTheErrorsThatItLeavesOut) {
+    Display d = shipped("desktop-ideal");
+    d.errors.gap_mm = 0.15;
+    d.errors.pitch_ppm = 100;
+    d.errors.decenter_sd_mm = 0.01;
+    EXPECT_FALSE(sharp_depths(d).notes.contains("by_lens"));
+    EXPECT_TRUE(sharp_depths(d).remarks.empty());
+    d.errors.curvature_sd = 0.01;
+    d.errors.given = std::make_shared<const std::vector<GivenLensError>>(1);
+    const Result result = sharp_depths(d);
+    for (const char* figure : {"by_lens", "by_pixel", "by_pixel_with_diffraction", "spot_diopters", "spot_best_mm"})
+        EXPECT_NE(result.notes.at(figure).get<std::string>().find("errors.curvature_sd, errors.table"), std::string::npos)
+            << figure;
+    ASSERT_EQ(result.remarks.size(), 1u);
+    EXPECT_NE(result.remarks[0].find("errors.curvature_sd, errors.table"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace lfdsim

@@ -208,5 +208,36 @@ TEST(Spot, EndsWhenCancelled) {
     EXPECT_THROW(measure_spot(subject, job), Stopped);
 }
 
+// A lens's field and elemental image are those of its cell as built.
+TEST(Spot, OfAStretchedArrayIsThatOfItsPitch) {
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::hexagon}) {
+        Display built = shipped("desktop-asphere"), described = built;
+        built.array.lattice = described.array.lattice = lattice;
+        built.errors.pitch_ppm = 8e4;
+        described.array.pitch_mm = 1.08 * built.array.pitch_mm[0];
+        built.diffuser->angle_deg = described.diffuser->angle_deg = {4, 2};
+        built.errors.rotation_deg = described.array.rotation_deg = 20;
+        built.content.made_for = MadeFor::built;
+        const Result found = spots_of(built), expected = spots_of(described);
+        for (const char* field : {"half", "edge", "corner"})
+            for (const char* figure : {"panel_x_mm", "panel_y_mm", "field_deg", "rms_radius_mm", "meridional_with_diffuser_mm"})
+                EXPECT_NEAR(spot(found, field, 2).at(figure).get<double>(), spot(expected, field, 2).at(figure).get<double>(), 1e-9)
+                    << field << figure;
+        EXPECT_NEAR(found.maps.at(0).x0, expected.maps.at(0).x0, 1e-9);
+        EXPECT_NEAR(found.maps.at(0).y0, expected.maps.at(0).y0, 1e-9);
+    }
+}
+
+TEST(Spot, NamesTheErrorsThatItLeavesOut) {
+    Display d = shipped("desktop-asphere");
+    EXPECT_TRUE(spots_of(d).notes.empty());
+    d.errors.height_sd_mm = 0.02;
+    d.errors.wedge_deg = {0.1, 0};
+    const Result result = spots_of(d);
+    for (const char* figure : {"spots", "distortion", "central_depth_mm"})
+        EXPECT_NE(result.notes.at(figure).get<std::string>().find("errors.wedge_deg, errors.height_sd_mm"), std::string::npos)
+            << figure;
+}
+
 }  // namespace
 }  // namespace lfdsim

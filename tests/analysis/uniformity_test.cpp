@@ -74,6 +74,17 @@ TEST(Uniformity, EfficiencyAgreesWithBruteForce) {
     }
 }
 
+// The field of view is that of the lenses as built: slopes within p/2g, p stretched.
+TEST(Uniformity, FieldOfAStretchedArrayIsThatOfItsPitch) {
+    Display built = wide_panel(example()), described = built;
+    built.content.made_for = MadeFor::built;
+    built.errors.pitch_ppm = 8e4;
+    described.array.pitch_mm = 1.08 * built.array.pitch_mm[0];
+    const LightBudget found = budget(built), expected = budget(described);
+    EXPECT_NEAR(found.leaves / expected.leaves, 1, 1e-6);
+    EXPECT_NEAR(found.leaves_in_fov / expected.leaves_in_fov, 1, 1e-4);  // rays on the border may fall to either side
+}
+
 // Cover glass with air above it, lenses glued onto it and onto the panel itself: what goes up at random, by Snell and Fresnel.
 TEST(Uniformity, EfficiencyThroughLayersAgreesWithBruteForce) {
     const Display plain = wide_panel(example());

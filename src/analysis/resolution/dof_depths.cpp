@@ -40,8 +40,7 @@ DepthRun dof_depths(const Subject& s) {
     const double from_panel = camera_distance_mm(s.display()), eye = from_panel - g.vertex_plane_mm;
     // The ranges that theory calls sharp, bounded where they are infinite or reach the viewer, and a quarter more
     double low = 0, high = 0;
-    for (const SharpRange& range :
-         {sharp_by_lens(s.display(), g, s.theory(), from_panel), sharp_by_pixel(g, s.theory(), from_panel)})
+    for (const SharpRange& range : {sharp_by_lens(g, s.theory(), from_panel), sharp_by_pixel(g, s.theory(), from_panel)})
         for (const DepthSpan& span : {range.behind, range.in_front})
             if (!span.empty()) {
                 low = std::min(low, std::isinf(span.low) ? std::min(2 * span.high, -eye / 4) : span.low);

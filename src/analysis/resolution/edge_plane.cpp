@@ -12,6 +12,7 @@
 
 #include "analysis/core/elemental_panel.h"
 #include "base/constants.h"
+#include "geometry/resolve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,7 @@ EdgePlane::EdgePlane(const Subject& s, double depth_mm, const Direction& directi
     : s_(s),
       white_(white),
       job_(job),
-      pitch_mm_(s.display().array.pitch_mm[std::size_t(direction.axis)]),
+      pitch_mm_(lens_pitch_mm(s.geometry(), std::size_t(direction.axis))),
       bars_(bars_across(direction, s.geometry().vertex_plane_mm + depth_mm)) {}
 
 EdgeEye EdgePlane::eye(double angle_deg) const { return {angle_deg, s_.viewing_distance_mm()}; }
@@ -44,7 +45,7 @@ double EdgePlane::pitch_mm() const { return pitch_mm_ * scale_to_plane(s_.geomet
 /// it an edge leans by a whole number of steps.
 void EdgePlane::set_bars(double blur_mm, double angle_deg) {
     const double pitch = pitch_mm(), lean_rad = std::abs(bars_.lean_deg) * degree, tangent = std::tan(lean_rad);
-    const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(angle_deg));
+    const auto [across, along] = seen_half_mm(s_.geometry(), bars_, eye(angle_deg));
     const double most = 1.2 * (across - along * tangent);
     bars_.width_mm = (std::max(1., std::ceil(2 * blur_mm / pitch - golden)) + golden) * pitch;
     bars_.width_mm = std::min(bars_.width_mm, most);
@@ -80,7 +81,7 @@ void EdgePlane::show(int picture) {
 /// Returns the size of the pictures' pixels in the edges' plane: at most a quarter of the finest period and a tenth of a pitch,
 /// but not so small that all pictures together have more than most_pixels; incommensurable with the pitch.
 double EdgePlane::pixel_mm(double most_per_mm) const {
-    const double across = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(0))[0];
+    const double across = seen_half_mm(s_.geometry(), bars_, eye(0))[0];
     const double area = pictures_ * bars_.length_mm * 2 * across;
     const double fine =
         std::max(std::min({std::sqrt(area / pixels_wanted), 0.25 / most_per_mm, 0.1 * pitch_mm()}), std::sqrt(area / most_pixels));
@@ -108,7 +109,7 @@ void EdgePlane::measure(std::span<MtfCurves> all_curves) {
     }
     if (curves.empty()) return;
     const double farthest = curves.back()->angle_deg;
-    const auto [across, along] = seen_half_mm(s_.display(), s_.geometry(), bars_, eye(farthest));
+    const auto [across, along] = seen_half_mm(s_.geometry(), bars_, eye(farthest));
     if (!(across > 0 && along > 0)) return;
     // Bars must fit also at the farthest angle.
     set_bars(blur_mm, farthest);

@@ -10,6 +10,7 @@
 #include "content/pickup/pickup.h"
 #include "content/pickup/shown_points.h"
 #include "engine/render.h"
+#include "geometry/resolve.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -27,7 +28,7 @@ struct ScreenRect {
 };
 
 /// Returns the upright rectangle within the array and in front of the panel, less a lens at each border; along x and y.
-ScreenRect screen_middle(const Display& d, const Geometry& g) {
+ScreenRect screen_middle(const Geometry& g) {
     const double c = std::abs(g.lattice.cos_turn), s = std::abs(g.lattice.sin_turn);
     const double w = 0.5 * g.array_width_mm, h = 0.5 * g.array_height_mm;
     // The largest scaled copy of the array's rectangle that fits upright into the rotated one
@@ -39,15 +40,15 @@ ScreenRect screen_middle(const Display& d, const Geometry& g) {
         if (half > 2 * pitch) half -= pitch;
     };
     ScreenRect box{};
-    along(g.lattice.offset[0], share * w, 0.5 * g.panel_width_mm, d.array.pitch_mm[0], box.a, box.half_a);
-    along(g.lattice.offset[1], share * h, 0.5 * g.panel_height_mm, d.array.pitch_mm[1], box.b, box.half_b);
+    along(g.lattice.offset[0], share * w, 0.5 * g.panel_width_mm, g.lattice.pitch[0], box.a, box.half_a);
+    along(g.lattice.offset[1], share * h, 0.5 * g.panel_height_mm, lens_pitch_mm(g, 1), box.b, box.half_b);
     return box;
 }
 
 /// Returns the rectangle of the bars' plane that the eye sees through the middle of the screen, not longer than slanted edges
 /// remain within its width.
-ScreenRect seen_box(const Display& d, const Geometry& g, const Bars& bars, const EdgeEye& eye) {
-    const ScreenRect m = screen_middle(d, g);
+ScreenRect seen_box(const Geometry& g, const Bars& bars, const EdgeEye& eye) {
+    const ScreenRect m = screen_middle(g);
     const double k = scale_to_plane(g, bars.z_mm, eye), x = eye.x_mm() + (m.a - eye.x_mm()) * k, y = m.b * k;
     ScreenRect box = bars.upright ? ScreenRect{x, -y, m.half_a * k, m.half_b * k} : ScreenRect{-y, x, m.half_b * k, m.half_a * k};
     box.half_b = std::min(box.half_b, 0.5 * box.half_a / std::tan(std::abs(bars.lean_deg) * degree));
@@ -63,9 +64,8 @@ Image transposed(const Image& from) {
 
 }  // namespace
 
-std::vector<Direction> directions(const Display& d) {
-    const double turn = d.array.turn_deg() * degree;
-    if (is_strips(d.array)) return {{"across", "across the strips", std::cos(turn), std::sin(turn), 0}};
+std::vector<Direction> directions(const Geometry& g) {
+    if (g.lattice.strips) return {{"across", "across the strips", g.lattice.cos_turn, g.lattice.sin_turn, 0}};
     return {{"horizontal", "horizontal", 1, 0, 0}, {"vertical", "vertical", 0, 1, 1}};
 }
 
@@ -119,8 +119,8 @@ std::unique_ptr<ShownPanel> bars_panel(const Display& display, const Geometry& g
 double EdgeEye::x_mm() const { return distance_mm * std::sin(angle_deg * degree) + aside_mm; }
 double EdgeEye::z_mm() const { return distance_mm * std::cos(angle_deg * degree); }
 
-std::array<double, 2> seen_half_mm(const Display& d, const Geometry& g, const Bars& bars, const EdgeEye& eye) {
-    const ScreenRect box = seen_box(d, g, bars, eye);
+std::array<double, 2> seen_half_mm(const Geometry& g, const Bars& bars, const EdgeEye& eye) {
+    const ScreenRect box = seen_box(g, bars, eye);
     return {box.half_a, box.half_b};
 }
 
@@ -131,13 +131,13 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
     // mean edge.
     view.seen.render.estimator = Estimator::point;
     view.seen.render.samples = samples_a_pixel;
-    ScreenRect box = seen_box(display, geometry, bars, eye);
+    ScreenRect box = seen_box(geometry, bars, eye);
     box.half_b = 0.5 * bars.length_mm;
     // The distance from an edge's middle to its farthest pixel
     const double margin = box.half_b * std::abs(tangent) + 0.5 * bars.width_mm / cosine;
-    const Pitch& pitch = display.array.pitch_mm;
+    const double pitch = lens_pitch_mm(geometry, bars.upright ? 1 : 0);
     const double apart =  // along the edges from lens to lens; strips cross them at the slant
-        is_strips(display.array) ? pitch[0] / std::sin(slant_deg * degree) : pitch[bars.upright ? 1 : 0];
+        is_strips(display.array) ? pitch / std::sin(slant_deg * degree) : pitch;
     const int per_edge = std::max(1, int(2 * box.half_b / (cosine * scale_to_plane(geometry, bars.z_mm, eye) * apart)));
     // Returns the position a of the middle of edge k.
     const auto middle = [&](double k) { return (bars.offset_mm + k * bars.width_mm - box.b * sine) / cosine; };

@@ -19,7 +19,7 @@ struct Direction {
 };
 
 /// Returns the display's x and y; of strips, which image along x' only, that direction alone.
-std::vector<Direction> directions(const Display&);
+std::vector<Direction> directions(const Geometry&);
 
 /// White and black bars side by side in a plane in front of or behind the display, mm. Each border is a slanted edge.
 struct Bars {
@@ -69,7 +69,7 @@ EdgeView edge_view(const Display&, const Geometry&, const Bars&, const EdgeEye&,
 
 /// Returns half the width, across the bars, and half the length, along them, of the part of the bars' plane that an eye sees
 /// through the screen; the length is limited so that slanted edges stay within the width. 0 or less: nothing is seen.
-std::array<double, 2> seen_half_mm(const Display&, const Geometry&, const Bars&, const EdgeEye&);
+std::array<double, 2> seen_half_mm(const Geometry&, const Bars&, const EdgeEye&);
 
 /// Returns the picture of a panel in that view, transposed if the edges are not upright. Throws Stopped.
 Image picture_of(const EdgeView&, bool upright, const SummedPanel& panel, RenderOptions, const Job&);

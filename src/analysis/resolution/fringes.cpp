@@ -38,8 +38,8 @@ Display near_view(const Subject& s, double z_mm, double angle_deg) {
     d.camera.target_mm = {0, 0, z_mm};
     d.camera.resolution = {near_columns, near_rows};
     d.camera.fov_deg.reset();
-    d.camera.frame_width_mm =
-        lenses_near_by * d.array.pitch_mm[0] * std::abs(scale_to_plane(s.geometry(), z_mm, eye)) * std::cos(angle_deg * degree);
+    d.camera.frame_width_mm = lenses_near_by * s.geometry().lattice.pitch[0] * std::abs(scale_to_plane(s.geometry(), z_mm, eye)) *
+                              std::cos(angle_deg * degree);
     return d;
 }
 
@@ -110,7 +110,7 @@ void show_white_fringes(const Subject& s, const Job& job, Result& result) {
 void show_edge_fringes(const Subject& s, double depth_mm, const std::vector<double>& angles, const Job& job, Result& result) {
     if (!has_colours(s.display())) return;
     constexpr double without_end_mm = 1e9;
-    Bars bars = bars_across(directions(s.display()).front(), s.geometry().vertex_plane_mm + depth_mm);
+    Bars bars = bars_across(directions(s.geometry()).front(), s.geometry().vertex_plane_mm + depth_mm);
     bars.width_mm = without_end_mm;
     const auto edge = bars_panel(s.display(), s.geometry(), bars, s.threads()),
                white = bars_panel(s.display(), s.geometry(), {}, s.threads());

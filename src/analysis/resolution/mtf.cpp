@@ -168,7 +168,7 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
 
     Plot plot{"mtf50", "Resolution: MTF50, or the limit below it", "depth in front of the lenses, mm", "cycles per mm", {}};
     DataTable table{"mtf50", {{"depth_mm", depths}}};
-    for (const Direction& direction : directions(s.display())) {
+    for (const Direction& direction : directions(s.geometry())) {
         DataTable all_curves = DataTable::of_rows(
             std::string("mtf_") + direction.name,
             {"depth_mm", "angle_deg", "frequency_per_mm", "modulation", "edge_red", "edge_green", "edge_blue", "theory"});
@@ -281,7 +281,7 @@ std::vector<double> mtf_depths_mm(const Subject& s) {
 }
 
 std::int64_t mtf_steps(const Subject& s) {
-    return std::int64_t(directions(s.display()).size()) * std::int64_t(mtf_depths_mm(s).size());
+    return std::int64_t(directions(s.geometry()).size()) * std::int64_t(mtf_depths_mm(s).size());
 }
 
 Result measure_mtf(Subject& s, Job& job) {
@@ -297,7 +297,7 @@ Result measure_mtf(Subject& s, Job& job) {
     }
     std::vector<MtfCurves> all;
     for (const double depth : depths)
-        for (const Direction& direction : directions(s.display())) {
+        for (const Direction& direction : directions(s.geometry())) {
             std::vector<MtfCurves> plane;
             for (std::size_t k = 0; k < angles.size(); ++k) plane.push_back(mtf_curves(s, seen[k], depth, angles[k], direction));
             EdgePlane(s, depth, direction, white->summed(), job).measure(plane);

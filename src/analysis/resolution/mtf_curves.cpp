@@ -100,7 +100,7 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
         m.missing = "in the lenses' own plane each lens shows only one point of it";
     else if (!(m.spread_mm > 0))
         m.missing = "no light of elemental images is seen there";
-    else if (spread.width_mm(1 - most_lost) > 2 * seen_half_mm(s.display(), s.geometry(), plane, eye)[0])
+    else if (spread.width_mm(1 - most_lost) > 2 * seen_half_mm(s.geometry(), plane, eye)[0])
         m.missing = "the light is spread over more of that plane than the screen shows";
 
     // Frequencies reach to the first zero of a pixel's image or, if the blur is far wider, to 4 over its width, where the MTF is

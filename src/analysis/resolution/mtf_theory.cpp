@@ -49,7 +49,7 @@ double pixel_limit_per_mm(const Subject& s, const Direction& direction, double z
 }
 
 bool at_the_lenses(const Display& d, const Geometry& g, double z_mm) {
-    return pixel_image_mm(d, g, z_mm) < 1e-6 * d.array.pitch_mm.least();
+    return pixel_image_mm(d, g, z_mm) < 1e-6 * g.lattice.pitch[0];
 }
 
 Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, double angle_deg) {
@@ -57,7 +57,7 @@ Blur blur(const Display& d, const Geometry& g, const Theory& t, double z_mm, dou
     Blur b{pixel_image_mm(d, g, z_mm) * std::sqrt(d.panel.aperture_ratio),
            aperture_shape(d, g),
            defocus,
-           d.array.turn_deg() * degree,
+           g.turn_deg * degree,
            {0, 0},
            &figures_of(Profile::box)};
     if (!d.diffuser) return b;

@@ -2,7 +2,7 @@
 
 #include "base/constants.h"
 #include "base/sinc.h"
-#include "geometry/lattice.h"
+#include "geometry/resolve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,10 +108,10 @@ ApertureShape aperture_shape(const Display& d, const Geometry& g) {
     if (g.lattice.strips) return {ApertureForm::slit, g.clear_aperture_mm};
     if (d.array.aperture == Aperture::circle) return {ApertureForm::disk, g.clear_aperture_mm};
     // A cell that the pupil contains, or that contains the pupil, is not cut.
-    const std::array<double, 2> cell{pupil.cells * d.array.pitch_mm[0], pupil.cells * d.array.pitch_mm[1]};
+    const std::array<double, 2> cell{pupil.cells * lens_pitch_mm(g, 0), pupil.cells * lens_pitch_mm(g, 1)};
     const ApertureForm form = g.lattice.hexagonal ? ApertureForm::hexagon : ApertureForm::rectangle;
     if (pupil.radius_mm <= 0.5 * std::min(cell[0], cell[1])) return {ApertureForm::disk, g.clear_aperture_mm};
-    if (pupil.radius_mm >= pupil.cells * outer_radius_mm(d.array) * (1 - 1e-12)) return {form, cell};
+    if (pupil.radius_mm >= pupil.cells * outer_radius_mm(d, g) * (1 - 1e-12)) return {form, cell};
     const Corners corners = form == ApertureForm::hexagon ? hexagon(0.5 * cell[0]) : rectangle(0.5 * cell[0], 0.5 * cell[1]);
     return {ApertureForm::cut, g.clear_aperture_mm, within_circle(corners, pupil.radius_mm)};
 }

@@ -4,12 +4,18 @@
 
 #include "base/constants.h"
 #include "base/on_threads.h"
+#include "geometry/lens_misalignment.h"
 #include "geometry/pupil.h"
+#include "geometry/resolve.h"
 #include "optics/lattice.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <string>
+#include <utility>
 
 namespace lfdsim {
 namespace {
@@ -22,13 +28,12 @@ double told(double mm, double z) { return mm < 1e-9 + 1e-14 * std::abs(z) ? 0 : 
 }  // namespace
 
 std::vector<LensField> trace_fields(const Subject& s, const LensTrace& lens) {
-    const LensArray& array = s.display().array;
-    const double edge = array.pitch_mm[0] / 2,
-                 corner = array.lattice == LatticeKind::hexagon ? edge / std::sqrt(3) : array.pitch_mm[1] / 2;
+    const Lattice<double>& l = s.geometry().lattice;
+    const double edge = l.pitch[0] / 2, corner = l.hexagonal ? edge / std::sqrt(3) : l.pitch[1] / 2;
     std::vector<LensField> fields{{"axis", "on the axis", {0, 0}, {}, {}},
                                   {"half", "half way to the edge", {edge / 2, 0}, {}, {}},
                                   {"edge", "edge of the field", {edge, 0}, {}, {}}};
-    if (!is_strips(array)) fields.push_back({"corner", "corner", {edge, corner}, {}, {}});
+    if (!l.strips) fields.push_back({"corner", "corner", {edge, corner}, {}, {}});
     for (LensField& f : fields) {
         f.light = bundle(lens, f.panel, bundle_rays);
         f.rims = fans(lens, f.panel, fan_rays);
@@ -44,9 +49,11 @@ Spot spot_at(const Subject& s, const LensField& f, double z) {
     const double z_diffuser = *s.geometry().diffuser_z_mm - s.geometry().rear_principal_mm,
                  height = std::hypot(f.panel[0], f.panel[1]);
     const Point u = height > 0 ? Point{f.panel[0] / height, f.panel[1] / height} : Point{1, 0}, v{-u[1], u[0]};
-    spot.meridional_diffused = told(width_at(diffused(f.rims.meridional, z_diffuser, diffuser_angle(s.display(), u)), z).mm, z);
+    spot.meridional_diffused =
+        told(width_at(diffused(f.rims.meridional, z_diffuser, diffuser_angle(s.display(), s.geometry(), u)), z).mm, z);
     if (is_strips(s.display().array)) return spot;
-    spot.sagittal_diffused = told(width_at(diffused(f.rims.sagittal, z_diffuser, diffuser_angle(s.display(), v)), z).mm, z);
+    spot.sagittal_diffused =
+        told(width_at(diffused(f.rims.sagittal, z_diffuser, diffuser_angle(s.display(), s.geometry(), v)), z).mm, z);
     return spot;
 }
 
@@ -82,7 +89,7 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
     for (const std::size_t k : {0u, 1u}) {
         const double views = k == 1 && lattice.strips ? 1 : t.along[k].views;
         places[k] = int(std::clamp(std::round(views), 1., double(most_places)));
-        step[k] = views > most_places ? display.array.pitch_mm[k] / places[k] : display.panel.pixel_pitch_mm;
+        step[k] = views > most_places ? lens_pitch_mm(g, k) / places[k] : display.panel.pixel_pitch_mm;
     }
     const auto [columns, rows] = places;
     const double L = t.central_depth_mm, gap = g.gap_mm;
@@ -116,6 +123,24 @@ Distortion distortion(const Display& display, const Geometry& g, const Theory& t
     });
     if (job.cancelled()) throw Stopped{};
     return result;
+}
+
+void note_left_out_errors(const Subject& s, Result& result) {
+    const Errors& e = s.display().errors;
+    std::string keys;
+    for (const auto& [key, given] : std::initializer_list<std::pair<const char*, bool>>{{"wedge_deg", is_wedged(e)},
+                                                                                        {"bow_mm", e.bow_mm != 0},
+                                                                                        {"height_sd_mm", e.height_sd_mm != 0},
+                                                                                        {"tilt_sd_deg", e.tilt_sd_deg != 0},
+                                                                                        {"curvature_sd", e.curvature_sd != 0},
+                                                                                        {"table", e.given != nullptr}})
+        if (given) keys += fmt::format("{}errors.{}", keys.empty() ? "" : ", ", key);
+    if (keys.empty()) return;
+    const std::string note = fmt::format("of one perfect lens, parallel to the panel: {} left out", keys);
+    for (const auto& [name, figure] : result.figures.items())
+        if (!name.ends_with("_error") && !result.notes.contains(name)) result.note(name, note);
+    result.remarks.push_back(fmt::format(
+        "Spots, and depths of field by their width, are those of one perfect lens, parallel to the panel. Left out: {}.", keys));
 }
 
 }  // namespace lfdsim

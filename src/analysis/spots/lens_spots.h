@@ -1,5 +1,6 @@
 // The spots of one lens over field and depth, and the distortion of its elemental image. Floor 3.
 #pragma once
+#include "analysis/core/result.h"
 #include "analysis/core/subject.h"
 #include "analysis/spots/ray_fan.h"
 
@@ -47,5 +48,9 @@ struct Distortion {
 };
 /// Computes the distortion of a lens's elemental image. Throws Stopped.
 Distortion distortion(const Display&, const Geometry&, const Theory&, int threads, const Job&);
+
+/// Notes at all figures so far, and in a remark, which [errors] they leave out: those of one lens are of the perfect lens, before a
+/// panel that is parallel to it.
+void note_left_out_errors(const Subject&, Result&);
 
 }  // namespace lfdsim

@@ -103,9 +103,9 @@ FanWidth width_at(const std::vector<FanRay>& lines, double z) {
     return {highest - lowest, high.slope - low.slope};
 }
 
-double diffuser_angle(const Display& d, Point along) {
+double diffuser_angle(const Display& d, const Geometry& g, Point along) {
     if (!d.diffuser) return 0;
-    const double turn = d.array.turn_deg() * degree, c = std::cos(turn), s = std::sin(turn);
+    const double c = g.lattice.cos_turn, s = g.lattice.sin_turn;
     const double x = std::abs(c * along[0] - s * along[1]) * d.diffuser->angle_deg[0] * degree / 2,
                  y = std::abs(s * along[0] + c * along[1]) * d.diffuser->angle_deg[1] * degree / 2;
     return figures_of(d.diffuser->profile).rectangular ? x + y : std::hypot(x, y);

@@ -42,7 +42,7 @@ FanWidth width_at(const std::vector<FanRay>&, double z);
 
 /// Returns half the diffuser's full angle (gaussian: full width at half maximum) along a unit vector of the array's axes,
 /// radians; 0 without a diffuser.
-double diffuser_angle(const Display&, Point along);
+double diffuser_angle(const Display&, const Geometry&, Point along);
 
 /// Returns the outermost rays that a diffuser at depth z makes of each: turned by plus and minus `angle` radians, up to 89
 /// degrees from the axis.

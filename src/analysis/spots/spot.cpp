@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "checks/depth_words.h"
 #include "geometry/pupil.h"
+#include "geometry/resolve.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -172,7 +173,7 @@ void tell_distortion(const Subject& s, const Distortion& d, Result& result) {
             result.note(fmt::format("distortion.{}", name), "images of pixels are at infinity: see pixel_images");
     result.tables.push_back(std::move(table));
     if (open > 0) {
-        const Pitch& p = s.display().array.pitch_mm;
+        const double p[] = {lens_pitch_mm(s.geometry(), 0), lens_pitch_mm(s.geometry(), 1)};
         result.maps.push_back({"spot_distortion", "Distortion of the elemental image", "x on the panel from the lens's axis, mm",
                                "y on the panel, mm", "distance from the nodal line, images of a panel pixel", -p[0] / 2, p[0] / 2,
                                -p[1] / 2, p[1] / 2, d.columns, d.rows, d.pixel_images, 0, std::max(most, 1e-3)});
@@ -226,6 +227,7 @@ Result measure_spot(Subject& s, Job& job) {
                            : "of the light of a Lambertian panel point about its centroid"});
     tell_distortion(s, distortion(s.display(), s.geometry(), s.theory(), s.threads(), job), result);
     job.advance(2);
+    note_left_out_errors(s, result);
     if (fields.front().light.rays.empty())
         result.remarks.push_back("No light of the panel point on a lens's axis gets through it.");
     if (s.display().array.surround != Surround::opaque)

@@ -4,9 +4,9 @@
 
 #include "analysis/core/estimate.h"
 #include "analysis/core/figure_json.h"
+#include "analysis/spots/lens_spots.h"
 #include "base/constants.h"
 #include "checks/depth_words.h"
-#include "geometry/lens_misalignment.h"
 #include "geometry/resolve.h"
 #include "geometry/sharp_range.h"
 
@@ -243,7 +243,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const SharpRange by_pixel = sharp_by_pixel(g, t, eye);
     Teller tell(s, result);
     const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
-    tell.by_lens(fan, s.display().array.pitch_mm[axis] * pitch_scale(s.display().errors), sharp_by_lens(s.display(), g, t, eye));
+    tell.by_lens(fan, lens_pitch_mm(g, axis), sharp_by_lens(g, t, eye));
     tell.by_pixel("by_pixel", "spot_diopters", "by the pixel", fan, 0, by_pixel,
                   "where the traced spot of a panel point on the axis is no wider than a pixel's image; theory is paraxial, so "
                   "differences come from the lens's aberrations");
@@ -253,7 +253,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
         for (const char* name : {"spot_best_mm", "spot_least_pixel_images"}) result.note(name, "no light gets through the lens");
     if (s.display().diffuser) {
         const double z = *g.diffuser_z_mm - g.rear_principal_mm,
-                     angle = diffuser_angle(s.display(), along_x ? Point{1, 0} : Point{0, 1});
+                     angle = diffuser_angle(s.display(), g, along_x ? Point{1, 0} : Point{0, 1});
         tell.by_pixel("by_pixel_with_diffuser", "spot_with_diffuser_diopters", "by the pixel, with the diffuser's widening",
                       fan.diffused_at(z, angle), 0, by_pixel, "the diffuser widens a spot by its angle times the distance from it");
     }
@@ -264,6 +264,7 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     result.add("diffraction_quarter_wave_diopters", std::vector{1000 * near, 1000 * far});
     tell.tell("by_quarter_wave", "by a quarter of a wave, for a perfect lens", {}, range_of_inverse(g, near, far, eye),
               "where defocus becomes visible beside diffraction; pixels larger than the Airy disk allow more");
+    note_left_out_errors(s, result);
     return traced;
 }
 

@@ -3,6 +3,7 @@
 #include "analysis/core/eye_rays.h"
 #include "base/constants.h"
 #include "engine/scene/traced_display.h"
+#include "geometry/resolve.h"
 #include "optics/camera.h"
 #include "optics/layers.h"
 
@@ -67,8 +68,8 @@ std::array<LightBudget, independent_sets> light_budgets(const Display& display, 
     const bool black = display.array.surround == Surround::opaque;
     const double margin = black ? 8 * (geometry.vertex_plane_mm - geometry.base_z_mm) : 0;
     const double m = display.panel.emission_exponent,
-                 fov_slope[] = {display.array.pitch_mm[0] / (2 * geometry.gap_mm),
-                                is_strips(display.array) ? infinity : display.array.pitch_mm[1] / (2 * geometry.gap_mm)};
+                 fov_slope[] = {geometry.lattice.pitch[0] / (2 * geometry.gap_mm),
+                                is_strips(display.array) ? infinity : lens_pitch_mm(geometry, 1) / (2 * geometry.gap_mm)};
     const double c = geometry.lattice.cos_turn, s = geometry.lattice.sin_turn;
     const int rays = budget_rays_a_part * lenses.more_for({0, 0, geometry.vertex_plane_mm + 1e6});
     std::array<Found, light_budget_parts> sums{};

@@ -155,7 +155,7 @@ Result measure_zone(Subject& s, Job& job) {
         "centre. An eye receives light from {:.3g} mm of the panel through one lens (its aperture and the diffuser, paraxially), "
         "which moves the limit at 1 % nearer to the middle, but not that at 50 %; images {:.4g} mm wide, {:.3f} p, move both "
         "outwards. Whole pixels and the lenses' aberrations account for the rest.",
-        spread, image, image / s.display().array.pitch_mm[0]));
+        spread, image, image / s.geometry().lattice.pitch[0]));
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/devices/memory.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/prescription.h"
+#include "geometry/resolve.h"
 #include "optics/lattice.h"
 
 #include <fmt/format.h>
@@ -145,8 +146,7 @@ void place_lenses(const Display& d, const Geometry& g, StoredDisplay<S>& scene) 
     const bool round = d.array.aperture == Aperture::circle;
     misaligned.overhang =
         S(aside + (round ? first.semi_aperture_mm - std::min(g.lattice.half_pitch[0], g.lattice.half_pitch[1]) : 0));
-    misaligned.radius =
-        S(aside + (round ? first.semi_aperture_mm : outer_radius_mm(d.array) * (g.lattice.pitch[0] / d.array.pitch_mm[0])));
+    misaligned.radius = S(aside + (round ? first.semi_aperture_mm : outer_radius_mm(d, g)));
     misaligned.search_top = S(top + all.high + sway + rounding);
     misaligned.search_bottom = S(bottom + all.low - sway - rounding);
 }

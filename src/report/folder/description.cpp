@@ -4,7 +4,7 @@
 #include "base/constants.h"
 #include "display/keys.h"
 #include "geometry/lattice.h"
-#include "geometry/lens_misalignment.h"
+#include "geometry/resolve.h"
 #include "geometry/sharp_range.h"
 #include "geometry/subpixels.h"
 
@@ -99,11 +99,11 @@ namespace {
 
 /// Returns the lateral shift of each channel at the viewing distance, mm, the largest of all pixels of a cell; none without
 /// subpixels.
-std::vector<double> colour_shifts_mm(const Display& d, const Theory& t) {
+std::vector<double> colour_shifts_mm(const Display& d, const Geometry& g, const Theory& t) {
     if (d.panel.subpixels == SubpixelLayout::none) return {};
     const std::array<std::int64_t, 2> cell = subpixel_cell(d.panel).size;
     // p'/p - 1 = g/(D' - z_H'), p as built
-    const double gap_per_distance = t.along[0].elemental_pitch_mm / (d.array.pitch_mm[0] * pitch_scale(d.errors)) - 1;
+    const double gap_per_distance = t.along[0].elemental_pitch_mm / g.lattice.pitch[0] - 1;
     std::vector<double> shifts;
     for (int channel = 0; channel < 3; ++channel) {
         double most = 0;
@@ -125,7 +125,7 @@ double published_depth_mm(const Theory& t) {
 /// Whether an eye far away sees no dark parts between the lenses: the pupil is the whole cell.
 bool fills_cells(const Display& d, const Geometry& g) {
     return d.array.aperture == Aperture::cell && g.pupil.cells >= 1 - 1e-9 &&
-           g.pupil.radius_mm >= outer_radius_mm(d.array) * (1 - 1e-9);
+           g.pupil.radius_mm >= outer_radius_mm(d, g) * (1 - 1e-9);
 }
 
 /// Returns the sharp depths, named as in `analyze dof`, and the resolution limits as the eye sees them.
@@ -139,7 +139,7 @@ std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory&
     const auto ends = [&](const DepthSpan& span) { return before ? std::vector{span.low, span.high} : std::vector{nan, nan}; };
     constexpr auto interval = Figure::Presentation::interval;
     constexpr const char *lens = "a lens's spot D |1 - z/L| is no wider than the pitch p", *pixel = "|1/z - 1/L| <= a / (g D)";
-    const SharpRange by_lens = sharp_by_lens(d, g, t, eye), by_pixel = sharp_by_pixel(g, t, eye);
+    const SharpRange by_lens = sharp_by_lens(g, t, eye), by_pixel = sharp_by_pixel(g, t, eye);
     const double at_lenses = before ? lens_limit_per_mm(g, t, 0, eye) : nan,
                  at_content = before && eye - g.vertex_plane_mm > z
                                   ? std::min(lens_limit_per_mm(g, t, z, eye), pixel_limit_per_mm(d, g, z))
@@ -245,7 +245,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
          "angle that closes the gaps at the diffuser's distance", "2 atan(p / 2d), d its height above the lenses' rims",
          gaps ? "there is no diffuser" : no_gaps}};
     all.insert(all.end(), rest.begin(), rest.end());
-    if (const std::vector<double> shifts = colour_shifts_mm(d, t); !shifts.empty())
+    if (const std::vector<double> shifts = colour_shifts_mm(d, g, t); !shifts.empty())
         all.push_back({"subpixel_shift_mm", shifts,
                        "lateral shift of red, green and blue at the viewing distance, for content made for whole pixels",
                        "distance of the subpixels from the pixel's centre x (D - z_H') / g"});

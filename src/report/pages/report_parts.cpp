@@ -113,7 +113,7 @@ std::string theory_rows(const Subject& s) {
         {"Views across, and the angle between them",
          fmt::format("{}, {}", theory(&AxisTheory::views, ""), theory(&AxisTheory::view_step_deg, "°"))},
         {"Central depth plane L, from the lenses", number(t.central_depth_mm, " mm")},
-        {"Depth of field by the lens", depths_in_words(g, sharp_by_lens(d, g, t, eye), eye)},
+        {"Depth of field by the lens", depths_in_words(g, sharp_by_lens(g, t, eye), eye)},
         {"Depth of field by the pixel", depths_in_words(g, sharp_by_pixel(g, t, eye), eye)},
         {"Image of a pixel at L", number(t.pixel_image_mm, " mm")},
         {"Whole screen visible within", theory(&AxisTheory::viewing_zone_deg, "°")},

@@ -6,6 +6,7 @@
 #include "geometry/dark_bands.h"
 #include "geometry/geometry.h"
 #include "geometry/lattice.h"
+#include "geometry/resolve.h"
 #include "report/folder/description.h"
 #include "view/answers/slider.h"
 
@@ -44,7 +45,7 @@ Diffuser new_diffuser(const Display& d, const Geometry& g) {
     const double distance = rounded(g.top_z_mm - g.vertex_plane_mm + 10 * std::max(g.gap_mm, 1.), 2);
     const auto joining = [&](std::size_t axis) {
         const double height = g.vertex_plane_mm + distance - aperture_plane_mm(d, g, axis);
-        return rounded(std::clamp(gap_closing_angle_deg(d.array.pitch_mm[axis], height), 0.1, 20.), 2);
+        return rounded(std::clamp(gap_closing_angle_deg(lens_pitch_mm(g, axis), height), 0.1, 20.), 2);
     };
     return {distance, {joining(0), joining(1)}, Profile::box};
 }

@@ -86,7 +86,7 @@ Plot spot_plot(const Display& d) {
     const double low = finite ? L - reach : 0, high = finite ? L + reach : 2 * d.camera.position_mm[2];
     Series traced{"traced spot", {}, {}}, diffuse{"with the diffuser", {}, {}}, pixel{"a panel pixel's image", {}, {}};
     const std::vector<FanRay> after =
-        d.diffuser ? diffused(fan, *g.diffuser_z_mm - g.rear_principal_mm, diffuser_angle(d, {1, 0})) : std::vector<FanRay>{};
+        d.diffuser ? diffused(fan, *g.diffuser_z_mm - g.rear_principal_mm, diffuser_angle(d, g, {1, 0})) : std::vector<FanRay>{};
     for (int k = 0; k < spot_depths; ++k) {
         const double z = low + (high - low) * k / (spot_depths - 1);
         for (Series* s : {&traced, &diffuse, &pixel}) s->x.push_back(z + from_vertex);
