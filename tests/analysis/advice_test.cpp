@@ -16,7 +16,6 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 
 std::vector<std::string> advice_for(const Display& d, const std::optional<Vec3d>& half_size = std::nullopt) {
     const Geometry g = resolve(d);
