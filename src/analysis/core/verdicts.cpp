@@ -134,8 +134,8 @@ std::optional<Stop> stop_against_overlap(const Display& d, const Geometry& g) {
     });
 }
 
-/// Returns the remedy for views that a diffuser mixes: one that is weaker by a factor along the eyes' line. Where the
-/// array is turned, so that both of its axes mix views, and that does not separate them, it is weaker along both.
+/// Returns the remedy for views that a diffuser mixes: one that is weaker by a factor along the eyes' line or, where the
+/// array is turned and this alone does not separate the views, along both axes.
 std::string weaker_diffuser(Display d, const Geometry& g, double factor) {
     const double cosine = std::abs(g.lattice.cos_turn), sine = std::abs(g.lattice.sin_turn);
     const std::size_t main = g.lattice.strips && cosine < sine ? 1 : 0;

@@ -49,8 +49,8 @@ struct Distortion {
 /// Computes the distortion of a lens's elemental image. Throws Stopped.
 Distortion distortion(const Display&, const Geometry&, const Theory&, int threads, const Job&);
 
-/// Notes at all figures so far, and in a remark, which [errors] they leave out: those of one lens are of the perfect lens, before a
-/// panel that is parallel to it.
+/// Adds a note to each figure of the result, and a remark, that names the keys of [errors] that are left out: the figures are those
+/// of one perfect lens, parallel to the panel.
 void note_left_out_errors(const Subject&, Result&);
 
 }  // namespace lfdsim
