@@ -234,7 +234,8 @@ TEST(Server, VisitorThatLingersHoldsUpNobody) {
     ASSERT_TRUE(soon([&] { return f.guests.leaving == 1; }));
     std::this_thread::sleep_for(50ms);
     EXPECT_EQ(stays.ask("there"), "there");
-    EXPECT_EQ(Browser(*f.server).ask("new"), "new");
+    Browser comes(*f.server);
+    EXPECT_EQ(comes.ask("new"), "new");
     EXPECT_EQ(f.guests.destroyed, 0) << "while the first lingers";
 }
 
