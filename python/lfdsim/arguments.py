@@ -51,10 +51,13 @@ def seen(display: Any, model: Any, **arguments: Any) -> Display:
     return changed._with_model(model)
 
 
-def pixels(array: Any, name: str, needed: int = 4, *, white: float = 1) -> NDArray[Any]:
+def pixels(
+    array: Any, name: str, needed: int = 4, *, white: float = 1, shown: str = "it is taken as it is"
+) -> NDArray[Any]:
     """Height x width x 3: float32, or codes of uint8 or uint16, in C order. Copies only what is not yet so. An alpha channel may be
     there where it is full everywhere. `needed`: bytes of memory for each value, of all that will be there at a time. `white`: the most
-    that light can be, above which a warning is given; whole numbers above 1 are taken for codes in any case."""
+    that light can be, above which a warning is given, with what becomes of it (`shown`); whole numbers above 1 are taken for codes in
+    any case."""
     try:
         given = np.asarray(array)
     except (ValueError, TypeError) as error:
@@ -78,11 +81,11 @@ def pixels(array: Any, name: str, needed: int = 4, *, white: float = 1) -> NDArr
     with np.errstate(over="ignore"):  # what float32 cannot hold becomes infinite, which is refused with its place
         made = np.ascontiguousarray(given, dtype=given.dtype.newbyteorder("=") if codes else np.float32)
     if not codes:
-        _warn_above(made, name, white)
+        _warn_above(made, name, white, shown)
     return made
 
 
-def _warn_above(light: NDArray[np.float32], name: str, white: float) -> None:
+def _warn_above(light: NDArray[np.float32], name: str, white: float, shown: str) -> None:
     with np.errstate(invalid="ignore"):  # nan is refused with its place
         greatest = float(light.max())
     if not 1.001 < greatest < np.inf or np.isnan(greatest):
@@ -96,7 +99,7 @@ def _warn_above(light: NDArray[np.float32], name: str, white: float) -> None:
         if integers or greatest > 16
         else "divide by the greatest value"
     )
-    warnings.warn(f"{name} holds light of up to {greatest:.6g}, and white is 1: it is taken as it is; {remedy}", LfdsimWarning, stacklevel=4)
+    warnings.warn(f"{name} holds light of up to {greatest:.6g}, and white is 1: {shown}; {remedy}", LfdsimWarning, stacklevel=4)
 
 
 def whole(value: Any, name: str, low: int, high: int) -> int:

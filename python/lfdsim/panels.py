@@ -17,7 +17,8 @@ from lfdsim.texts import text
 class Panel:
     """A picture on the display's panel, prepared once for many views: render() takes it in place of the array.
 
-    picture: as the `panel` of render(). Other displays with as many pixels may show it, too.
+    picture: as the `panel` of render(); codes become light here, by this display's encoding. Other displays with as many pixels may
+    show it, too.
     """
 
     __slots__ = ("_handle",)
@@ -56,5 +57,6 @@ def pattern(
 
 
 def panel_codes(display: Display, panel: ArrayLike) -> NDArray[np.uint8]:
-    """Linear light as the 8-bit codes that drive the panel, in its encoding: what `lfdsim eia -o eia.png` writes."""
-    return _core.codes(display_of(display)._handle, pixels(panel, "panel"))
+    """Linear light as the 8-bit codes that drive the panel, in its encoding: what `lfdsim eia -o eia.png` writes. Light above 1 has
+    the code of 1."""
+    return _core.codes(display_of(display)._handle, pixels(panel, "panel", shown="its code is that of 1"))

@@ -12,12 +12,18 @@ from numpy.typing import NDArray
 
 from lfdsim import _core
 from lfdsim.arguments import flag
+from lfdsim.errors import InputError
 from lfdsim.numbers_of import numbers_of
 from lfdsim.texts import path_text
 
 
 class Result:
-    """Figures, tables, plots and pictures of one measure. None: a figure that is undefined; `notes` say why."""
+    """Figures, tables, plots and pictures of one measure. None: a figure that is undefined; `notes` say why.
+
+    It can be pickled, so that measures run in several processes; what was pickled has everything but save().
+    """
+
+    _measured: _core.Measured
 
     def __init__(self, measured: _core.Measured, measure: str) -> None:
         self._measured = measured
@@ -65,15 +71,21 @@ class Result:
         """(caption, picture) of each: float32, height x width x 3, linear light."""
         return self._measured.pictures()
 
-    @property
+    @cached_property
     def seconds(self) -> float:
         """The time that measuring took."""
         return self._measured.seconds()
 
     def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> None:
         """Writes what `lfdsim analyze -o FOLDER` writes: figures, tables, plots, pictures, report.html. InputError where the folder
-        holds results of another display or other settings, unless those are to be replaced."""
+        holds results of another display or other settings, unless those are to be replaced, and of a result that was pickled."""
+        if "_measured" not in self.__dict__:
+            raise InputError([("save", "this result was pickled; save it where it is measured")])
         self._measured.save(path_text(folder, "folder"), f"lfdsim.analyze(display, {self.measure!r})", flag(replace, "replace"))
+
+    def __getstate__(self) -> dict[str, Any]:
+        kept = ("measure", "figures", "notes", "findings", "remarks", "tables", "plots", "pictures", "seconds")
+        return {name: getattr(self, name) for name in kept}
 
     def __repr__(self) -> str:
         lines = [_line(finding) for finding in self.findings]

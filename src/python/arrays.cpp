@@ -63,6 +63,12 @@ void fill(const AnyPixels& pixels, float* to, int stride, Encoding encoding, boo
     if (const auto* codes = std::get_if<Pixels<std::uint16_t>>(&pixels)) decode(*codes, 16);
 }
 
+Image filled(const AnyPixels& pixels, Encoding encoding, bool panel, const std::string& name) {
+    Image image(int(columns_of(pixels)), int(rows_of(pixels)));
+    fill(pixels, image.rgb.data(), 3, encoding, panel, name);
+    return image;
+}
+
 }  // namespace
 
 std::int64_t rows_of(const AnyPixels& pixels) {
@@ -78,10 +84,12 @@ Texels texels_of(const AnyPixels& pixels, Encoding encoding, const std::string& 
     return texels;
 }
 
+Image panel_image_of(const AnyPixels& pixels, Encoding encoding, const std::string& name) {
+    return filled(pixels, encoding, true, name);
+}
+
 Image image_of(const AnyPixels& pixels, Encoding encoding, const std::string& name) {
-    Image image(int(columns_of(pixels)), int(rows_of(pixels)));
-    fill(pixels, image.rgb.data(), 3, encoding, false, name);
-    return image;
+    return filled(pixels, encoding, false, name);
 }
 
 Pictured array_of(Image&& image) {

@@ -20,9 +20,11 @@ using AnyPixels = std::variant<Pixels<float>, Pixels<std::uint8_t>, Pixels<std::
 std::int64_t rows_of(const AnyPixels&);
 std::int64_t columns_of(const AnyPixels&);
 
-/// A panel's texels and a picture of the array's light, which is copied; code values become light by `encoding`, floats are taken
-/// as they are. Throws InputError, with `name` and the first such pixel, for light that is not finite or, in texels, negative.
+/// A panel's texels or picture and any picture of the array's light, which is copied; code values become light by `encoding`,
+/// floats are taken as they are. Throws InputError, with `name` and the first such pixel, for light that is not finite or, of a
+/// panel, negative.
 Texels texels_of(const AnyPixels&, Encoding, const std::string& name);
+Image panel_image_of(const AnyPixels&, Encoding, const std::string& name);
 Image image_of(const AnyPixels&, Encoding, const std::string& name);
 
 using Pictured = nanobind::ndarray<nanobind::numpy, float>;

@@ -187,7 +187,7 @@ nb::typed<nb::dict, std::string, double> compare(const AnyPixels& a, const AnyPi
 /// The 8-bit codes, by the panel's encoding, with which the panel shows light.
 nb::ndarray<nb::numpy, std::uint8_t> codes(const Display& display, const AnyPixels& light) {
     auto all = std::make_unique<std::vector<std::uint8_t>>();
-    run(nb::none(), [&](Job&) { *all = encode8(image_of(light, display.panel.encoding, "panel"), display.panel.encoding); });
+    run(nb::none(), [&](Job&) { *all = encode8(panel_image_of(light, display.panel.encoding, "panel"), display.panel.encoding); });
     std::uint8_t* const data = all->data();
     const nb::capsule owner(all.get(), [](void* p) noexcept { delete static_cast<std::vector<std::uint8_t>*>(p); });
     all.release();

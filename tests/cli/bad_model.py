@@ -50,14 +50,16 @@ def write_3mf(name, resources, build):
                          f'<resources>{resources}</resources><build>{build}</build></model>')
 
 
-def square_3mf(colour):
+def square_3mf(colour, of_object=""):
     corners = "".join(f'<vertex x="{x}" y="0" z="{z}"/>' for x, z in [(-1, -1), (1, -1), (1, 1), (-1, 1)])
-    return (f'<object id="1" type="model"><mesh><vertices>{corners}</vertices><triangles><triangle v1="0" v2="1" v3="2" {colour}/>'
+    return (f'<object id="1" type="model" {of_object}><mesh><vertices>{corners}</vertices><triangles><triangle v1="0" v2="1" v3="2" {colour}/>'
             '<triangle v1="0" v2="2" v3="3"/></triangles></mesh></object>')
 
 
+red = '<basematerials id="2"><base name="red" displaycolor="#FF0000"/></basematerials>'
 item = '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 691000.3 5334000.2 7"/>'
-for name, resources, note in [("plain.3mf", square_3mf(""), ""),
+for name, resources, note in [("plain.3mf", square_3mf(""), ""), ("red.3mf", red + square_3mf("", 'pid="2" pindex="0"'), ""),
+                              ("bare.3mf", red + square_3mf(""), "missing materials of 3MF objects (they get the file's first) are not shown"),
                               ("group.3mf", '<m:colorgroup id="2"><m:color color="#FF0000"/></m:colorgroup>' + square_3mf('pid="2" p1="0"'),
                                "colours of 3MF colour groups and materials of single triangles of 3MF are not shown")]:
     write_3mf(name, resources, item)

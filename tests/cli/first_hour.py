@@ -90,6 +90,12 @@ for words in ["eia.png: was made for another display", "array.gap_mm 5, not 5.1"
     checks.that(words in err, f"another display: no {words!r} in {err}")
 checks.that(err.count("warning") == 1, f"more than one warning: {err}")
 checks.that("warning" not in said(f"{SHOW.replace('eia', 'panel')} --set array.gap_mm=5.1"), "a checkerboard is made for no lenses")
+# Content that is made for the described display is for each that is built by it; content that knows the errors is for that one.
+checks.that("warning" not in said(f"{SHOW} --set errors.gap_mm=0.1 errors.shift_mm=[0.2,0]"), "a warning of errors that the content does not know")
+BUILT = "content.made_for=built errors.gap_mm=0.1"
+program.must(f"eia tiny.toml {QUIET} --set {BUILT} -o eia.png")
+checks.that("warning" not in said(f"{SHOW} --set {BUILT}"), "a warning of the errors that the content was made for")
+checks.that("another display: other errors of assembly" in said(f"{SHOW} --set errors.shift_mm=[0.2,0]"), "no warning of other errors than those that the content was made for")
 program.must(f"eia tiny.toml {QUIET} -o eia.exr")
 checks.that("array.gap_mm" in said(f"render tiny.toml --panel-image eia.exr {QUIET} -o shown.png --set array.gap_mm=5.1"), "an EXR's header is not read")
 

@@ -12,6 +12,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <regex>
 #include <sstream>
 
 namespace lfdsim {
@@ -243,12 +245,27 @@ TEST(Cell, OfStaggeredRowsIsCoveredOnce) {
     }
 }
 
+// A pitch as built that is greater leaves corners beside a lens, which keeps its size; a smaller one cuts the lens.
 TEST(Cell, OfAHexagonThatIsFilledEndsAtItsBorder) {
-    const Display d = hexagons({"array.aperture=\"cell\"", "lens.sphere_radius_mm=9.0"});
-    const MeshedArray made = peers::mesh_array(d, resolve(d), 5000);
-    const Patch* cap = named(made.cell, "surface-2");
-    ASSERT_TRUE(cap);
-    EXPECT_NEAR(area_from_above(*cap), 12 * 12 * std::sqrt(0.75), 1e-4);
+    const double r = 12 / std::sqrt(3);  // out to the corners of a cell as described
+    std::ptrdiff_t flat_parts = 0;
+    for (const double pitch : {10.8, 12., 13.2}) {
+        const Display d = hexagons(
+            {"array.aperture=\"cell\"", "lens.sphere_radius_mm=9.0", "errors.pitch_ppm=" + std::to_string(1e6 * (pitch / 12 - 1))});
+        const MeshedArray made = peers::mesh_array(d, resolve(d), 50000);
+        const Patch* cap = named(made.cell, "surface-2");
+        ASSERT_TRUE(cap);
+        // Six times a triangle and a sector of the disk about the lens
+        const double out = pitch / 2, away = std::min(std::acos(out / r), pi / 6);
+        const double area = 6 * (out * out * std::tan(away) + r * r * (pi / 6 - away));
+        EXPECT_NEAR(area_from_above(*cap) / area, 1, 1e-4) << pitch;
+        // In POV-Ray's scene the corners are black discs with a hole.
+        const std::string text = scene_text(Peer::pov, d);
+        const std::regex disc(R"(disc \{)");
+        const auto discs = std::distance(std::sregex_iterator(text.begin(), text.end(), disc), std::sregex_iterator());
+        EXPECT_EQ(discs > flat_parts, pitch != 12) << pitch;
+        flat_parts = discs;
+    }
 }
 
 TEST(Cell, OfAStripIsCoveredOnce) {

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import pathlib
+import pickle
 import unittest
 from unittest import mock
 
@@ -33,6 +34,20 @@ class Results(TinyTest):
                 self.assertTrue(repr(result).startswith("lfdsim.Result"))
                 self.assertIn("<table>", result._repr_html_())
                 self.assertEqual({f"{name}.svg" for name in result.plots}, {f for f in theirs["report"]["files"] if f.endswith(".svg")})
+
+    def test_what_was_pickled_has_all_but_files(self) -> None:
+        for measure in "spot", "components":
+            result = lfdsim.analyze(self.display, measure, size=(96, 54))
+            held = pickle.loads(pickle.dumps(result))
+            for name in "measure", "figures", "notes", "findings", "remarks", "plots", "seconds":
+                self.assertEqual(getattr(held, name), getattr(result, name), name)
+            self.assertEqual((repr(held), held._repr_html_()), (repr(result), result._repr_html_()))
+            for name, (caption, picture) in result.pictures.items():
+                self.assertEqual(held.pictures[name][0], caption)
+                np.testing.assert_array_equal(held.pictures[name][1], picture)
+            self.assertEqual({name: list(table) for name, table in held.tables.items()}, {name: list(table) for name, table in result.tables.items()})
+            with self.assertRaisesRegex(lfdsim.InputError, "save: this result was pickled; save it where it is measured"):
+                held.save("ours")
 
     def test_options_reach_the_measure(self) -> None:
         self.program(

@@ -51,6 +51,9 @@ class Named(TinyTest):
             for call in (lfdsim.render, lfdsim.Panel, lfdsim.panel_codes):
                 with self.assertWarnsRegex(lfdsim.LfdsimWarning, remedy):
                     call(d, doubtful)
+        with self.assertWarnsRegex(lfdsim.LfdsimWarning, "its code is that of 1"):
+            lfdsim.panel_codes(d, codes / 100.0)
+        self.refused(lfdsim.InputError, "panel: holds -0.5 in channel R at column 0, row 0", lfdsim.panel_codes, d, codes * 0.0 - 0.5)
         with self.assertWarnsRegex(lfdsim.LfdsimWarning, "a holds light of up to 128"):
             lfdsim.compare(codes.astype(float), codes)
         with self.assertWarnsRegex(lfdsim.LfdsimWarning, "picture holds light of up to 128"):

@@ -149,9 +149,9 @@ OwnRange where_own(const OwnLens& lens, const EyePath& path, double wanted, std:
 
 namespace {
 
-/// Returns an axis of the array as a unit vector in the display's frame.
-std::array<double, 2> array_axis(const Display& d, int axis) {
-    const double turn = d.array.turn_deg() * degree, c = std::cos(turn), s = std::sin(turn);
+/// Returns an axis of the array as built, as a unit vector in the display's frame.
+std::array<double, 2> array_axis(const Geometry& g, int axis) {
+    const double c = g.lattice.cos_turn, s = g.lattice.sin_turn;
     return axis == 0 ? std::array{c, s} : std::array{-s, c};
 }
 
@@ -165,7 +165,7 @@ double half_field(const Display& d, const Geometry& g, int axis) { return std::a
 }  // namespace
 
 EyePath arc(const Display& d, const Geometry& g, double distance, int axis) {
-    const auto [x, y] = array_axis(d, axis);
+    const auto [x, y] = array_axis(g, axis);
     const auto eye = [=, x = x, y = y](double angle) {
         const double aside = distance * std::sin(angle * degree);
         return Vec3d{aside * x, aside * y, distance * std::cos(angle * degree)};
@@ -182,7 +182,7 @@ double arc_edge_deg(const Geometry& g, const Theory& t, double distance, int axi
 }
 
 EyePath across(const Display& d, const Geometry& g, double distance, int axis) {
-    const auto [x, y] = array_axis(d, axis);
+    const auto [x, y] = array_axis(g, axis);
     const auto eye = [=, x = x, y = y](double aside) { return Vec3d{aside * x, aside * y, distance}; };
     const double away = distance - g.rear_principal_mm;
     return {eye, away * std::tan(85 * degree), 0.1 * away * std::tan(half_field(d, g, axis)), axis};

@@ -3,6 +3,7 @@
 #include "display/keys.h"
 #include "files/description/display_file.h"
 #include "geometry/geometry.h"
+#include "geometry/lens_misalignment.h"
 #include "geometry/subpixels.h"
 
 #include <fmt/format.h>
@@ -42,10 +43,10 @@ std::optional<IntendedDisplay> made_for(const Metadata& about) {
     }
 }
 
-// Returns the numbers that nodal elemental images depend on, except the model's. Lengths on the lens's axis represent the lens,
-// however it is described.
-std::vector<Said> pickup_of(const IntendedDisplay& made) {
-    const auto& [d, g] = made;
+// Returns the numbers that nodal elemental images depend on, except the model's and errors of assembly. Lengths on the lens's axis
+// represent the lens, however it is described.
+std::vector<Said> pickup_of(const Display& d) {
+    const Geometry g = resolve(without_errors(d));
     return {{"panel.pixel_pitch_mm", {d.panel.pixel_pitch_mm}},
             {"array.count", {g.lattice.count[0], g.lattice.count[1]}},
             {"array.pitch_mm", {d.array.pitch_mm.begin(), d.array.pitch_mm.end()}},
@@ -85,6 +86,12 @@ std::string differences(const std::vector<Said>& first, const std::vector<Said>&
     return fmt::format("{}", fmt::join(all, "; "));
 }
 
+/// Returns whether two displays have the same errors of assembly, apart from tables of single lenses.
+bool same_errors(Errors a, Errors b) {
+    for (Errors* e : {&a, &b}) e->table.clear(), e->given.reset();
+    return a == b;
+}
+
 /// Whether a panel image depends on the lenses: elemental images, and patterns that are made for them.
 bool drawn_for_lenses(const Metadata& about) {
     const auto pattern = about.find(pattern_mark);
@@ -96,7 +103,7 @@ bool drawn_for_lenses(const Metadata& about) {
 void warn_if_for_another(const std::filesystem::path& panel_image, const Metadata& about, const Display& display) {
     const std::optional<IntendedDisplay> made = made_for(about);
     if (!made || !drawn_for_lenses(about)) return;
-    std::string what = differences(pickup_of(*made), pickup_of({display, resolve(display)}));
+    std::string what = differences(pickup_of(made->display), pickup_of(display));
     const auto compare_words = [&](const char* key, std::string_view was, std::string_view is) {
         if (was != is) what += fmt::format("{}{} {}, not {}", what.empty() ? "" : "; ", key, was, is);
     };
@@ -109,6 +116,8 @@ void warn_if_for_another(const std::filesystem::path& panel_image, const Metadat
         (then.lens != display.lens || then.panel.layers != display.panel.layers || then.array.surround != display.array.surround ||
          then.array.aperture != display.array.aperture))
         what += fmt::format("{}its pick-up was {} through another lens", what.empty() ? "" : "; ", word(then.content.pickup));
+    if (then.content.made_for == MadeFor::built && !same_errors(then.errors, display.errors))
+        what += fmt::format("{}other errors of assembly", what.empty() ? "" : "; ");
     if (holds_codes(panel_image)) compare_words("panel.encoding", word(made->display.panel.encoding), word(display.panel.encoding));
     if (!what.empty()) spdlog::warn("{}: was made for another display: {}", panel_image.string(), what);
 }

@@ -115,7 +115,7 @@ Json sidecar(const Display& d, const Geometry& g, const std::vector<LensMapping>
             {"wavelengths_nm", wavelengths},
             {"plane_z_mm", g.rear_principal_mm},
             {"gap_mm", g.gap_mm},
-            {"array_turn_deg", d.array.turn_deg()},
+            {"array_turn_deg", g.turn_deg},
             {"strips", is_strips(d.array)},
             {"nodal_line", "has x = y = 0 and the slope -u / gap_mm"},
             {"display", d.name}};

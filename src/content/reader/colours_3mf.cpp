@@ -34,6 +34,16 @@ bool has_attribute(const std::string& text, const std::string& element, const st
     return false;
 }
 
+// Returns whether an object with a mesh has no material of its own, in a file that has materials.
+bool has_bare_mesh(const std::string& text) {
+    if (text.find("<basematerials") == std::string::npos) return false;
+    for (std::size_t at = text.find("<object "); at != std::string::npos; at = text.find("<object ", at + 1)) {
+        const std::size_t mesh = text.find("<mesh", at), end = text.find("</object", at), pid = text.find(" pid=", at);
+        if (mesh < end && pid > text.find('>', at)) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 void note_3mf(const std::filesystem::path& file, NotShown& not_shown) {
@@ -48,6 +58,7 @@ void note_3mf(const std::filesystem::path& file, NotShown& not_shown) {
         if (text.find(":colorgroup") != std::string::npos || text.find("<colorgroup") != std::string::npos)
             not_shown.add("colours of 3MF colour groups");
         if (has_attribute(text, "<triangle ", " pid=")) not_shown.add("materials of single triangles of 3MF");
+        if (has_bare_mesh(text)) not_shown.add("missing materials of 3MF objects (they get the file's first)");
         if (has_attribute(text, "<component ", ":path=")) not_shown.add("parts in other files of a 3MF archive");
     }
 }

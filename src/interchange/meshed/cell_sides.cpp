@@ -1,5 +1,7 @@
 #include "interchange/meshed/cell_sides.h"
 
+#include "geometry/resolve.h"
+
 #include <cmath>
 
 namespace lfdsim {
@@ -13,7 +15,7 @@ double sheet_half(const Geometry& g) {
 std::array<double, 2> cell_half(const Display& display, const Geometry& g) {
     const double x = g.lattice.pitch[0] / 2;
     if (g.lattice.strips) return {x, std::ceil(sheet_half(g))};
-    return {x, g.lattice.hexagonal ? outer_radius_mm(display.array) : g.lattice.pitch[1] / 2};
+    return {x, g.lattice.hexagonal ? outer_radius_mm(display, g) : g.lattice.pitch[1] / 2};
 }
 
 std::array<double, 2> array_half(const Display& display, const Geometry& g) {

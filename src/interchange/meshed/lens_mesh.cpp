@@ -1,6 +1,7 @@
 #include "interchange/meshed/lens_mesh.h"
 
 #include "base/constants.h"
+#include "geometry/resolve.h"
 #include "geometry/vec.h"
 #include "interchange/meshed/cell_sides.h"
 
@@ -35,10 +36,10 @@ std::array<double, 2> normal(const PlacedSurface& s, double distance) {
 /// The border of a surface in projection along the axis.
 class Outline {
   public:
-    Outline(const PlacedSurface& s, const LensArray& array, const std::vector<CellSide>& sides)
+    Outline(const PlacedSurface& s, const Display& d, const Geometry& g, const std::vector<CellSide>& sides)
         : radius_(s.semi_aperture_mm),
-          round_(array.aperture == Aperture::circle),
-          reach_(round_ ? radius_ : std::min(radius_, outer_radius_mm(array))),
+          round_(d.array.aperture == Aperture::circle),
+          reach_(round_ ? radius_ : std::min(radius_, outer_radius_mm(d, g))),
           sides_(sides) {}
     /// Returns the point at this share of the way round, counter-clockwise. A cell's outline begins in a corner; its sides have
     /// equal shares.
@@ -100,7 +101,7 @@ std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rin
 class Builder {
   public:
     Builder(const Display& display, const Geometry& geometry)
-        : array_(display.array), geometry_(geometry), sides_(cell_sides(display, geometry)) {}
+        : display_(display), geometry_(geometry), sides_(cell_sides(display, geometry)) {}
 
     LensMesh build(Grid grid) {
         const auto& surfaces = geometry_.surfaces;
@@ -152,7 +153,7 @@ class Builder {
     /// Returns whether the rims of two surfaces coincide, so that there is no wall between them.
     bool rims_touch(const PlacedSurface& a, const PlacedSurface& b) const {
         // Most points of a cell's outline are closer to the axis than its corners: the middle of a side represents them.
-        const auto middle = Outline(a, array_, sides_).middle_of_side();
+        const auto middle = Outline(a, display_, geometry_, sides_).middle_of_side();
         const double x = std::hypot(middle[0], middle[1]);
         const double near = touching * a.semi_aperture_mm;
         return std::abs(a.semi_aperture_mm - b.semi_aperture_mm) < near && std::abs(a.z_mm + sag(a, x) - b.z_mm - sag(b, x)) < near;
@@ -175,7 +176,7 @@ class Builder {
     /// Adds a surface, and the first vertex of its rim to rims_.
     void add_surface(int number, Grid grid) {
         const PlacedSurface& s = geometry_.surfaces[std::size_t(number)];
-        const Outline outline(s, array_, sides_);
+        const Outline outline(s, display_, geometry_, sides_);
         const bool plane = is_plane(s), down = s.index_below == 1;
         const double vertex_z = s.z_mm - geometry_.base_z_mm, sense = down ? -1 : 1;
         const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -218,7 +219,8 @@ class Builder {
     void add_slats(int number, Slats slats) {
         const PlacedSurface& s = geometry_.surfaces[std::size_t(number)];
         const bool down = s.index_below == 1;
-        const double r = s.semi_aperture_mm, half = array_.aperture == Aperture::cell ? std::min(r, sides_[0].from_axis_mm) : r,
+        const double r = s.semi_aperture_mm,
+                     half = display_.array.aperture == Aperture::cell ? std::min(r, sides_[0].from_axis_mm) : r,
                      sense = down ? -1 : 1;
         const auto first = std::uint32_t(mesh_.vertices_mm.size() / 3), n = slats.across, m = slats.along;
         const auto add = [&](std::uint32_t i, std::uint32_t j) {
@@ -275,7 +277,7 @@ class Builder {
     /// Returns the normal at corner i of a wall's quadrilateral, lower edge first: a round wall is a cone, a cell's has flat sides.
     Vec3d wall_normal(const Vec3d (&at)[4], int i) const {
         Vec3d n;
-        if (array_.aperture == Aperture::circle && !is_strips(array_)) {
+        if (display_.array.aperture == Aperture::circle && !is_strips(display_.array)) {
             const Vec3d &low = at[i == 0 || i == 3 ? 0 : 1], &high = at[i == 0 || i == 3 ? 3 : 2];
             const double out = std::hypot(at[i][0], at[i][1]), rise = high[2] - low[2];
             n = {rise * at[i][0] / out, rise * at[i][1] / out, std::hypot(low[0], low[1]) - std::hypot(high[0], high[1])};
@@ -286,7 +288,7 @@ class Builder {
         return length(n) > 0 ? normalised(n) : Vec3d{};
     }
 
-    const LensArray& array_;
+    const Display& display_;
     const Geometry& geometry_;
     const std::vector<CellSide> sides_;
     LensMesh mesh_;

@@ -3,6 +3,7 @@
 #include "engine/scene/traced_display.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/prescription.h"
+#include "geometry/resolve.h"
 #include "interchange/peers/array_frame.h"
 #include "interchange/peers/cell.h"
 #include "interchange/peers/scene_text.h"
@@ -136,7 +137,7 @@ class PovWriter {
     }
 
     /// Returns whether a cell has room beside a hole of this radius.
-    bool beside_hole(double radius) const { return radius < outer_radius_mm(d_.array); }
+    bool beside_hole(double radius) const { return radius < outer_radius_mm(d_, g_); }
 
     /// Returns the flat part of the cell outside a lens's aperture.
     std::string ring(double z, double radius, const std::string& matter) const {
