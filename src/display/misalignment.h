@@ -32,7 +32,7 @@ struct Errors {
     std::array<double, 2> shift_mm{};   // along the panel's x and y
     double gap_mm = 0;                  // towards the viewer
     double rotation_deg = 0;            // counter-clockwise as the viewer sees it
-    double pitch_ppm = 0;               // lens axes and cells are scaled by 1 + 1e-6 times this; the lenses keep their size
+    double pitch_ppm = 0;               // lens axes and cells are scaled by 1 + 1e-6 times this; lenses of glass keep their size
     std::array<double, 2> wedge_deg{};  // rotation about the panel's x, then about its y, right-handed
     double bow_mm = 0;                  // height of the array's middle above its corners, falling with the squared distance
 

@@ -13,7 +13,8 @@ constexpr Key<Errors> errors_keys[] = {
     {"rotation_deg", &Errors::rotation_deg, tilt_range, false,
      "Rotation of the whole array, counter-clockwise as the viewer sees it."},
     {"pitch_ppm", &Errors::pitch_ppm, Range{-1e5, 1e5}, false,
-     "Pitch error of the lenses and their cells, in parts per million, about the array's centre; the lenses keep their size."},
+     "Pitch error of the lenses and their cells, in parts per million, about the array's centre; lenses keep their size, but ideal "
+     "ones that fill their cells."},
     {"wedge_deg", &Errors::wedge_deg, tilt_range, false,
      "Rotation of the whole array about the panel's x axis (positive: its upper edge moves towards the viewer), then about its y "
      "axis (positive: its left edge does)."},

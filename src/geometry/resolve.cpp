@@ -105,7 +105,8 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
 
 /// Moves the array as a whole by its errors (docs/model.md, "Errors"). The diffuser, the content and the camera stay, so that
 /// depths from the vertex plane change.
-void misplace_array(const Errors& e, const LensArray& array, Geometry& g) {
+void misplace_array(const Display& d, Geometry& g) {
+    const Errors& e = d.errors;
     if (e.gap_mm != 0) {
         for (PlacedSurface& s : g.surfaces) s.z_mm += e.gap_mm;
         for (double* z : {&g.base_z_mm, &g.top_z_mm, &g.entrance_z_mm, &g.vertex_plane_mm, &g.reduced_vertex_plane_mm,
@@ -128,7 +129,11 @@ void misplace_array(const Errors& e, const LensArray& array, Geometry& g) {
         l.per_pitch[k] = 1 / l.pitch[k];
         l.half_pitch[k] = l.pitch[k] / 2;
     }
-    clear_apertures(array, g);
+    if (PlacedSurface& lens = g.surfaces.front(); d.array.aperture == Aperture::cell && lens.form == SurfaceForm::thin) {
+        lens.semi_aperture_mm *= scale;  // an ideal lens that fills its cell grows with it
+        g.pupil = pupil(g.surfaces, d.lens.stop_radius_mm, g.stop_z_mm);
+    }
+    clear_apertures(d.array, g);
     g.array_width_mm *= scale;
     if (!l.strips) g.array_height_mm *= scale;
 }
@@ -173,7 +178,7 @@ Geometry resolve_unchecked(const Display& d) {
         g.content_depth_mm = d.content.depth_mm.value_or(middle_z_mm(d.content.objects));
         g.content_height_mm = d.content.height_mm;
     }
-    misplace_array(d.errors, d.array, g);
+    misplace_array(d, g);
     return g;
 }
 

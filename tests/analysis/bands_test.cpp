@@ -174,5 +174,37 @@ TEST(Bands, OfAStretchedAndTurnedArrayAreThoseOfItsPitchAndTurn) {
         }
 }
 
+// Lenses of glass keep their size when errors stretch their cells: the cells' corners are then dark. A line at x along a cell of
+// half side h is lit where it passes the disk of radius R, for the share min(1, sqrt(R^2 - x^2)/h). Ideal lenses fill the cells as
+// built.
+TEST(Bands, OfCellsThatOutgrowTheirLensesAreInTheCorners) {
+    for (const double ppm : {3e4, 1e5}) {
+        Display d;
+        d.panel.pixels = {600, 400};
+        d.panel.pixel_pitch_mm = 0.1;
+        d.array.count = {24, 16};
+        d.array.pitch_mm = 2;
+        d.array.gap_mm = 6.2;
+        d.array.aperture = Aperture::cell;
+        d.lens.kind = PlanoConvex{3, {}, 0.2, 1.5, Facing::viewer};
+        d.camera.position_mm = {0, 0, 20000};
+        d.errors.pitch_ppm = ppm;
+        const double R = std::sqrt(2), h = 1 + 1e-6 * ppm, step = h / 16;
+        double border = 0;  // the mean over the outermost of 32 steps
+        for (int k = 0; k < 1000; ++k)
+            border += std::min(1., std::sqrt(R * R - std::pow(h - step * (k + 0.5) / 1000, 2)) / h) / 1000;
+        const double expected = (1 - border) / (1 + border);
+        EXPECT_NEAR(band_contrast(d, resolve(d))[0], expected, 0.003) << ppm;
+        EXPECT_NEAR(seen_contrast(d, resolve(d))[0], expected, 0.01) << ppm;
+
+        d.lens.kind = IdealLens{{}, 6};
+        EXPECT_EQ(band_contrast(d, resolve(d))[0], 0) << ppm;
+        EXPECT_EQ(seen_contrast(d, resolve(d))[0], 0) << ppm;
+        EXPECT_NEAR(resolve(d).clear_aperture_mm[0], 2 * h, 1e-12) << ppm;
+        d.errors.wedge_deg = {1e-6, 0};  // lenses are searched for, each in its place
+        EXPECT_EQ(seen_contrast(d, resolve(d))[0], 0) << ppm;
+    }
+}
+
 }  // namespace
 }  // namespace lfdsim
