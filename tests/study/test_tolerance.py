@@ -2,6 +2,7 @@
 
 import json
 import unittest
+from unittest import mock
 
 import numpy as np
 from scipy import stats
@@ -29,6 +30,25 @@ def percentile_within(test, values, percent, known, sigmas=4):
     p = percent / 100
     below = np.sum(values <= known)
     test.assertLess(abs(below - p * len(values)), sigmas * np.sqrt(len(values) * p * (1 - p)) + 0.5)
+
+
+class Chance(unittest.TestCase):
+    """What the budget says of its own certainty, on losses that are known: |x| of a normal x, of which 95 % are below 1.96."""
+
+    def intervals(self, draws, times):
+        random = np.random.default_rng(3)
+        for _ in range(times):
+            lost = np.abs(random.standard_normal(draws))
+            with mock.patch.object(tolerances, "RESAMPLES", 100):
+                yield tolerances._chance({s: s * lost for s in (0.5, 1, 2)}, stats.norm.ppf(0.975), 95.0, lambda x: float(np.percentile(x, 95)))
+
+    def test_most_intervals_hold_the_scale(self):
+        found = list(self.intervals(40, 100))
+        self.assertGreater(sum(low <= 1 <= high for low, high in found), 75)  # about 87
+        self.assertLess(np.median([high / low for low, high in found]), 2)
+
+    def test_few_draws_say_nothing_of_the_rarest(self):
+        self.assertTrue(np.isnan(list(self.intervals(39, 1))).all())
 
 
 class Draws(unittest.TestCase):
@@ -176,6 +196,8 @@ class WholeStudies(StudyTest):
         self.assertAlmostEqual(budget.loc["errors.gap_mm", "allowed scale"], 1, delta=0.2)
         self.assertAlmostEqual(budget.loc[errors.ALL, "allowed scale"], budget.loc["errors.gap_mm", "allowed scale"], places=6)
         self.assertEqual(budget.loc["errors.rotation_deg", "allowed scale"], 2)
+        low, high = budget.loc["errors.gap_mm", ["allowed scale from", "allowed scale to"]]
+        self.assertTrue(0.7 < low < 1 < high < 1.4, (low, high))
         values = found.draws["check.theory.central_depth_mm"]
         for percent in (5, 50, 95):
             percentile_within(self, values, percent, depth(GAP + stats.truncnorm(-3, 3, 0, SD).ppf(1 - percent / 100)))
@@ -243,6 +265,7 @@ class WholeStudies(StudyTest):
         line = next(x for x in done.stdout.splitlines() if x.startswith("  errors.decenter_sd_mm: 1 of its size, 0.15; or more"))
         self.assertIn("larger ones were not measured (at 2: 5 of 5 draws impossible, most often because: ", line)
         self.assertIn("decenter_sd_mm of up to 0.2", line)
+        self.assertIn("not known without two draws beyond the percentile", done.stdout)
         self.assertIn("5 draws of all errors together, 0 of them impossible.", done.stdout)
         self.assertIn("25 draws of each error alone and at other sizes, 10 of them impossible, most often because: ", done.stdout)
         self.assertIn('"content.viewing_distance_mm" = 900', (self.folder / "out" / "tolerance.toml").read_text())

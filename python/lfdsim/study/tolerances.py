@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import pathlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 PERCENT = (1, 5, 25, 50, 75, 95, 99)
 SIZE = [480, 270]
+RESAMPLES = 300
 WAYS = ("change", "fall", "rise")
 MEASURES = ("picture", "fov", "crosstalk")
 
@@ -208,21 +209,28 @@ def _percentiles(kept: "pandas.DataFrame", without: "pandas.Series", names: list
 def _budget(
     layout: Layout, rows: "pandas.DataFrame", without: "pandas.Series", losses: tuple[Loss, ...], percent: float
 ) -> "pandas.DataFrame":
-    """For each loss and group: the loss that `percent` of displays stay below at each scale; at which scale that is what is allowed."""
+    """For each loss and group: the loss that `percent` of displays stay below at each scale; at which scale that is what is allowed, and
+    from where to where chance leaves that."""
     import pandas
+
+    def percentile(lost: np.ndarray) -> float:
+        # An impossible display, or one without the figure, has lost it.
+        return float(np.nan_to_num(np.percentile(np.where(np.isnan(lost), np.inf, lost), percent), nan=np.inf))
 
     lines = []
     for loss in losses if layout.alone else ():
         for group in layout.groups:
-            at, cut = {}, {}
+            lost, cut, of_all = {}, {}, np.nan
             for scale, block in ((s, r) for g, s, r in layout.blocks() if g == group):
-                same = list(block)[: layout.alone]  # as many draws at each scale, so that these are the same ones
-                lost = loss.of(rows[loss.figure].to_numpy(float)[same], without[loss.figure])
-                # An impossible display, or one without the figure, has lost it.
-                at[scale] = float(np.nan_to_num(np.percentile(np.where(np.isnan(lost), np.inf, lost), percent), nan=np.inf))
-                if np.isinf(at[scale]):
-                    cut[scale] = _why_none(rows["error"].iloc[same], lost)
+                of_block = loss.of(rows[loss.figure].to_numpy(float)[list(block)], without[loss.figure])
+                lost[scale] = of_block[: layout.alone]  # as many draws at each scale, so that these are the same ones
+                if scale == 1:
+                    of_all = percentile(of_block)
+                if np.isinf(percentile(lost[scale])):
+                    cut[scale] = _why_none(rows["error"].iloc[list(block)[: layout.alone]], lost[scale])
+            at = {s: percentile(values) for s, values in lost.items()}
             scale, how = allowed_scale(at, loss.amount, cut)
+            low, high = _chance(lost, loss.amount, percent, percentile)
             size = layout.sizes.get(group)
             lines.append(
                 {
@@ -232,12 +240,29 @@ def _budget(
                     "error": group,
                     "size": size,
                     **{f"at {s:g}": v for s, v in at.items()},
+                    "loss at its size": of_all,
                     "allowed scale": scale,
+                    "allowed scale from": low,
+                    "allowed scale to": high,
                     "how": how,
                     "allowed size": None if size is None else (np.asarray(size) * scale).tolist(),
                 }
             )
     return pandas.DataFrame(lines)
+
+
+def _chance(
+    lost: dict[float, np.ndarray], amount: float, percent: float, percentile: Callable[[np.ndarray], float]
+) -> tuple[float, float]:
+    """Between which scales the allowed one lies, by bootstrap: draws are drawn again from those that there are, the same ones at each
+    scale (Efron 1979). NaN where fewer than two draws lie beyond the percentile, which then says nothing of what is beyond it."""
+    draws = len(next(iter(lost.values())))
+    if draws * (1 - percent / 100) < 2 - 1e-9:
+        return float("nan"), float("nan")
+    again = np.random.default_rng(0).integers(0, draws, (RESAMPLES, draws))
+    scales = [allowed_scale({s: percentile(values[pick]) for s, values in lost.items()}, amount)[0] for pick in again]
+    low, high = np.nanpercentile(scales, (2.5, 97.5)) if np.isfinite(scales).any() else (np.nan, np.nan)
+    return float(low), float(high)
 
 
 def _why_none(reasons: "pandas.Series", lost: np.ndarray) -> str:

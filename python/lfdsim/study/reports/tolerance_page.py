@@ -80,7 +80,8 @@ def summary(found: Tolerance) -> list[str]:
         lines += ["", f"Budget for {figure}: it may {WAYS[of_it.iloc[0]['way']]} {of_it.iloc[0]['allowed']:g}"]
         for _, line in of_it.iterrows():
             size = "" if line["error"] == ALL else f", {_sizes(line)}"
-            lines.append(f"  {line['error']}: {line['allowed scale']:.3g} of its size{size}; {line['how']}")
+            lines.append(f"  {line['error']}: {_scale(line)} of its size{size}; {line['how']}")
+        lines += [f"  {TOO_FEW}"] if of_it["allowed scale from"].isna().any() else []
     return lines
 
 
@@ -95,19 +96,29 @@ def _budget(found: Tolerance, figure: str, percent: float) -> str:
         [
             line["error"],
             str(line["size"]) if line["error"] != ALL else "",
-            f"{line['at 1']:.4g}",
-            f"{line['allowed scale']:.3g}",
+            f"{line['loss at its size']:.4g}",
+            _scale(line),
             _sizes(line),
             line["how"],
         ]
         for _, line in lines.iterrows()
     ]
+    told = f" {TOO_FEW}" if lines["allowed scale from"].isna().any() else ""
     head = ["error", "size", f"loss of the worst {100 - percent:g} %", "allowed scale", "allowed size", ""]
     return (
-        f"<h2>Budget for {html.escape(figure)}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays.</p>"
+        f"<h2>Budget for {html.escape(figure)}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays.{told}</p>"
         + page.table(head, rows)
         + _curves(found, lines, first["allowed"])
     )
+
+
+TOO_FEW = "How far chance may have moved an allowed scale is not known without two draws beyond the percentile: give more (alone, --alone)."
+
+
+def _scale(line: pd.Series) -> str:
+    """The allowed scale, and within what chance leaves it."""
+    low, high = line["allowed scale from"], line["allowed scale to"]
+    return f"{line['allowed scale']:.3g}" + ("" if np.isnan(low) or low == high else f" ({low:.3g} to {high:.3g})")
 
 
 def _sizes(line: pd.Series) -> str:
