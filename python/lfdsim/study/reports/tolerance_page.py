@@ -26,6 +26,7 @@ def write(found: Tolerance, percent: float) -> pathlib.Path:
     layout = found.layout
     parts = [
         f"<h1>Tolerances</h1><p>{html.escape(' '.join(_counts(found)))} All rows are in study.parquet.</p>",
+        *(_budget(found, figure, percent) for figure in (dict.fromkeys(found.budget["loss"]) if len(found.budget) else [])),
         "<h2>Sizes of the errors</h2>" + page.table(["error", "size"], [[k, str(v)] for k, v in layout.sizes.items()]),
         "<p class=note>Of the whole array: the standard deviation of a normal distribution about zero, cut off at 3. Of each lens "
         "(_sd): as the display draws them.</p>",
@@ -40,7 +41,6 @@ def write(found: Tolerance, percent: float) -> pathlib.Path:
             )
             + "<p class=note>Percentiles: so many displays are below. Figures that errors do not change are left out.</p>"
         )
-    parts += [_budget(found, figure, percent) for figure in dict.fromkeys(found.budget["loss"])] if len(found.budget) else []
     text = (
         f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>Tolerances</title><style>{page.STYLE}{STYLE}</style>\n"
         + "\n".join(parts)
