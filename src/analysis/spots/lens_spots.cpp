@@ -23,7 +23,7 @@ namespace {
 constexpr int bundle_rays = 256, pixel_rays = 64, fan_rays = 1001, most_places = 96;  // bundle_rays and pixel_rays: across a bundle
 
 /// Returns a size at depth z, or 0 if it is within the rounding of double precision.
-double told(double mm, double z) { return mm < 1e-9 + 1e-14 * std::abs(z) ? 0 : mm; }
+double without_rounding(double mm, double z) { return mm < 1e-9 + 1e-14 * std::abs(z) ? 0 : mm; }
 
 }  // namespace
 
@@ -43,17 +43,17 @@ std::vector<LensField> trace_fields(const Subject& s, const LensTrace& lens) {
 
 Spot spot_at(const Subject& s, const LensField& f, double z) {
     if (f.light.rays.empty() || f.rims.meridional.empty()) return {nan, nan, nan, nan, nan};
-    Spot spot{told(centroid_at(f.light, z).rms, z), told(width_at(f.rims.meridional, z).mm, z),
-              is_strips(s.display().array) ? nan : told(width_at(f.rims.sagittal, z).mm, z), nan, nan};
+    Spot spot{without_rounding(centroid_at(f.light, z).rms, z), without_rounding(width_at(f.rims.meridional, z).mm, z),
+              is_strips(s.display().array) ? nan : without_rounding(width_at(f.rims.sagittal, z).mm, z), nan, nan};
     if (!s.display().diffuser) return spot;
     const double z_diffuser = *s.geometry().diffuser_z_mm - s.geometry().rear_principal_mm,
                  height = std::hypot(f.panel[0], f.panel[1]);
     const Point u = height > 0 ? Point{f.panel[0] / height, f.panel[1] / height} : Point{1, 0}, v{-u[1], u[0]};
     spot.meridional_diffused =
-        told(width_at(diffused(f.rims.meridional, z_diffuser, diffuser_angle(s.display(), s.geometry(), u)), z).mm, z);
+        without_rounding(width_at(diffused(f.rims.meridional, z_diffuser, diffuser_angle(s.display(), s.geometry(), u)), z).mm, z);
     if (is_strips(s.display().array)) return spot;
     spot.sagittal_diffused =
-        told(width_at(diffused(f.rims.sagittal, z_diffuser, diffuser_angle(s.display(), s.geometry(), v)), z).mm, z);
+        without_rounding(width_at(diffused(f.rims.sagittal, z_diffuser, diffuser_angle(s.display(), s.geometry(), v)), z).mm, z);
     return spot;
 }
 

@@ -332,11 +332,12 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     folder->edited = [&](const std::string& name) -> std::optional<std::string> {
         const std::string ending = lower_ending(name);
         const bool has_positions = ending == ".obj" || ending == ".off" || ending == ".stl";
-        bool changed = is_marked(name);
+        bool changed = has_byte_order_mark(name);
         if (ending == ".mtl")
-            return readable_materials(unmarked_bytes(name), std::filesystem::path(name).filename().string(), tilings, not_shown);
+            return readable_materials(bytes_without_mark(name), std::filesystem::path(name).filename().string(), tilings,
+                                      not_shown);
         if (!has_positions && !changed) return {};
-        std::string text = unmarked_bytes(name);
+        std::string text = bytes_without_mark(name);
         if (ending == ".obj") {
             note_free_forms(text, not_shown);
             changed |= separate_libraries(text);

@@ -22,17 +22,17 @@ inline std::optional<std::string> whole_file(Assimp::IOSystem& io, const std::st
 }
 
 /// The byte order mark of UTF-8, which most of Assimp's loaders take for a part of the first word.
-inline constexpr std::string_view mark = "\xef\xbb\xbf";
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-/// Returns whether a file begins with the mark; unmarked_bytes() returns what follows it, or the whole file.
-inline bool is_marked(const std::string& file) {
+/// Returns whether a file begins with it; bytes_without_mark() returns what follows it, or the whole file.
+inline bool has_byte_order_mark(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
-    char first[mark.size()] = {};
-    return stream.read(first, sizeof first) && std::string_view(first, sizeof first) == mark;
+    char first[byte_order_mark.size()] = {};
+    return stream.read(first, sizeof first) && std::string_view(first, sizeof first) == byte_order_mark;
 }
-inline std::string unmarked_bytes(const std::string& file) {
+inline std::string bytes_without_mark(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
-    if (is_marked(file)) stream.ignore(mark.size());
+    if (has_byte_order_mark(file)) stream.ignore(byte_order_mark.size());
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
