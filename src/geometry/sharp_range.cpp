@@ -47,8 +47,16 @@ SharpRange sharp_by_pixel(const Geometry& g, const Theory& t, double eye_mm) {
     return range_of_inverse(g, t.depth_near_per_mm, t.depth_far_per_mm, eye_mm);
 }
 
+std::size_t tighter_axis(const Geometry& g) {
+    if (g.lattice.strips) return 0;
+    const auto& D = g.clear_aperture_mm;
+    const double x = lens_pitch_mm(g, 0) / D[0], y = lens_pitch_mm(g, 1) / D[1];
+    constexpr double equal = 1e-12;  // relative, of ratios that rounding alone makes different
+    return std::abs(x - y) <= equal * x ? (D[1] > D[0] ? 1 : 0) : (y < x ? 1 : 0);
+}
+
 SharpRange sharp_by_lens(const Geometry& g, const Theory& t, double eye_mm) {
-    const std::size_t axis = g.clear_aperture_mm[1] > g.clear_aperture_mm[0] && !g.lattice.strips ? 1 : 0;
+    const std::size_t axis = tighter_axis(g);
     const double L = t.central_depth_mm, pitches = std::max(lens_pitch_mm(g, axis) / g.clear_aperture_mm[axis], 1.);
     if (std::isnan(L)) return {no_depths, no_depths};
     if (std::isinf(L)) return range_between(g, -infinity, infinity, eye_mm);
@@ -73,9 +81,9 @@ std::string depths_in_words(const Geometry& g, const SharpRange& range, double e
     return words.empty() ? "no depth up to the viewer" : words;
 }
 
-double lens_limit_per_mm(const Geometry& g, const Theory& t, double depth, double eye_mm) {
+double lens_limit_per_mm(const Geometry& g, double depth, double eye_mm, std::size_t axis) {
     const double to_eye = eye_mm - g.vertex_plane_mm;
-    return t.along[0].lens_sampling_limit_per_mm * to_eye / (to_eye - depth);
+    return to_eye / (2 * lens_pitch_mm(g, axis) * (to_eye - depth));
 }
 
 double pixel_limit_per_mm(const Display& d, const Geometry& g, double depth) {

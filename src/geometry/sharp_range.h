@@ -2,6 +2,7 @@
 #pragma once
 #include "geometry/geometry.h"
 
+#include <cstddef>
 #include <string>
 
 namespace lfdsim {
@@ -32,9 +33,12 @@ SharpRange range_between(const Geometry&, double low_mm, double high_mm, double 
 /// |z|/g.
 SharpRange sharp_by_pixel(const Geometry&, const Theory&, double eye_mm);
 
-/// Returns the depth of field by the lens: where a lens's spot is no wider than the lens pitch, D |1 - z/L| <= p, along the axis
-/// of the wider D. Detail there is as fine as the lens pitch, however fine the pixels are. Contains the lenses, where the spot is
-/// D wide.
+/// Returns the axis of the array along which fewer depths are sharp by the lens: that of the smaller p/D, of equal ones that of the
+/// wider D. What is sharp along it is sharp along both.
+std::size_t tighter_axis(const Geometry&);
+
+/// Returns the depth of field by the lens: where a lens's spot is no wider than the lens pitch, D |1 - z/L| <= p, along both axes.
+/// Detail there is as fine as the lens pitch, however fine the pixels are. Contains the lenses, where the spot is D wide.
 SharpRange sharp_by_lens(const Geometry&, const Theory&, double eye_mm);
 
 /// Describes a range in words: "from 21.5 to 280 mm in front of the lenses", or for two intervals "from 70 mm behind the lenses
@@ -43,7 +47,8 @@ std::string depths_in_words(const Geometry&, const SharpRange&, double eye_mm);
 
 /// Returns the limit of resolution by the lens pitch at a depth z, cycles per mm in that plane: half a cycle per lens pitch,
 /// projected from the eye, E/(2 p (E - z)), E its distance from the vertex plane; `eye_mm` is that from the panel.
-double lens_limit_per_mm(const Geometry&, const Theory&, double depth_mm, double eye_mm);
+/// `axis`: 0 along x', 1 along y'; hexagons and strips have one pitch.
+double lens_limit_per_mm(const Geometry&, double depth_mm, double eye_mm, std::size_t axis);
 /// Returns the limit of resolution by the panel pixels at a depth, cycles per mm: half a cycle per image of a pixel, g/(2 a |z|).
 double pixel_limit_per_mm(const Display&, const Geometry&, double depth_mm);
 

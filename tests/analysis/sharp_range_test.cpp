@@ -41,6 +41,37 @@ TEST(SharpRange, HoldsWhereTheSpotIsNarrowEnough) {
     EXPECT_GT(through_infinity, 30);
 }
 
+// Lenses in rectangles and bricks: what is sharp is sharp along both axes, and a quarter turn of the display changes nothing.
+TEST(SharpRange, OfRectanglesIsSharpAlongBothAxes) {
+    for (const bool brick : {false, true})
+        for (const bool filled : {false, true})
+            for (const auto& pitch : {Pitch(1.2, 1.0), Pitch(0.7, 1.9)}) {
+                Display d = ideal(1, 4.6, 4.4, 10);
+                d.array.lattice = brick ? LatticeKind::brick : LatticeKind::rectangle;
+                d.array.aperture = filled ? Aperture::cell : Aperture::circle;
+                if (!filled) d.lens.as<IdealLens>().aperture_radius_mm = 0.35;
+                d.array.pitch_mm = pitch;
+                const Geometry g = resolve(d);
+                const Theory t = theory(d, g);
+                const SharpRange found = sharp_by_lens(g, t, 600);
+                for (double z = -300.3; z < 500; z += 1.7) {
+                    bool sharp = true;
+                    for (const std::size_t k : {0u, 1u})
+                        sharp = sharp && (filled ? pitch[k] : 0.7) * std::abs(1 - z / t.central_depth_mm) <= pitch[k];
+                    EXPECT_EQ(found.holds(z), sharp) << brick << filled << pitch[0] << " " << z;
+                }
+                Display turned = d;
+                turned.array.pitch_mm = Pitch(pitch[1], pitch[0]);
+                for (auto* one : {&d, &turned}) one->array.count = {11, 11};
+                Result of_one, of_turned;
+                add_spot_depths(Subject(d, {}, {}), of_one);
+                add_spot_depths(Subject(turned, {}, {}), of_turned);
+                for (const char* side : {"behind_mm", "in_front_mm"})
+                    EXPECT_EQ(of_one.figures["by_lens"][side], of_turned.figures["by_lens"][side]) << brick << filled << pitch[0];
+                for (const std::size_t k : {0u, 1u}) EXPECT_NEAR(lens_limit_per_mm(g, 0, 600, k), 0.5 / pitch[k], 1e-12);
+            }
+}
+
 // Every display: the fan of one lens at depths inside and outside of the ends; and theory's ends where there is no aberration.
 TEST(SharpRange, ByTheLensIsTheIntervalOfABruteForceSearch) {
     for (const auto& [name, d] : all_lenses()) {

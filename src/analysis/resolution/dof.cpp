@@ -11,6 +11,7 @@
 #include "analysis/spots/spot_depth.h"
 #include "base/constants.h"
 #include "checks/depth_words.h"
+#include "geometry/resolve.h"
 #include "geometry/sharp_range.h"
 
 #include <fmt/format.h>
@@ -100,11 +101,13 @@ PlotBar add_rules(Result& result, const std::string& region, const Curve& curve,
     return bar;
 }
 
-/// Adds the resolution that lens pitch and panel pixels allow at each depth, as the eye sees it.
+/// Adds the resolution that lens pitch and panel pixels allow at each depth, as the eye sees it, along the axis of the greater
+/// pitch.
 void add_resolution(const Subject& s, Result& result, const std::vector<double>& depths) {
     const Geometry& g = s.geometry();
     const double eye = camera_distance_mm(s.display());
-    const auto by_lens = [&](double z) { return lens_limit_per_mm(g, s.theory(), z, eye); };
+    const std::size_t coarser = lens_pitch_mm(g, 1) > lens_pitch_mm(g, 0) ? 1 : 0;
+    const auto by_lens = [&](double z) { return lens_limit_per_mm(g, z, eye, coarser); };
     const auto by_pixel = [&](double z) { return pixel_limit_per_mm(s.display(), g, z); };
     DataTable table =
         DataTable::of_rows("dof_resolution", {"depth_mm", "lens_per_mm", "pixel_per_mm", "lens_per_degree", "pixel_per_degree"});

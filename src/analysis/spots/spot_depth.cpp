@@ -234,16 +234,16 @@ SharpDepths add_spot_depths(const Subject& s, Result& result) {
     const Theory& t = s.theory();
     const Geometry& g = s.geometry();
     const double D = widest_aperture_mm(g), wavelength_mm = s.options().wavelength_nm * 1e-6;
-    // The fan is that along the wider clear aperture, so that depths stated as sharp are sharp along both axes.
+    // Depths stated as sharp are sharp along both axes. A pixel is as wide along both: its fan is that of the wider clear aperture.
     const bool along_x = D == g.clear_aperture_mm[0];
     const Fans both = fans(LensTrace(s.display(), g), {0, 0}, depth_fan_rays);
     const Fan fan(along_x ? both.meridional : both.sagittal);
-    const std::size_t axis = along_x ? 0 : 1;
     const double eye = camera_distance_mm(s.display());
     const SharpRange by_pixel = sharp_by_pixel(g, t, eye);
     Teller tell(s, result);
     const SharpDepths traced = where_sharp(fan.all, tell.pixel_slope());
-    tell.by_lens(fan, lens_pitch_mm(g, axis), sharp_by_lens(g, t, eye));
+    const std::size_t tighter = tighter_axis(g);
+    tell.by_lens(Fan(tighter == 0 ? both.meridional : both.sagittal), lens_pitch_mm(g, tighter), sharp_by_lens(g, t, eye));
     tell.by_pixel("by_pixel", "spot_diopters", "by the pixel", fan, 0, by_pixel,
                   "where the traced spot of a panel point on the axis is no wider than a pixel's image; theory is paraxial, so "
                   "differences come from the lens's aberrations");

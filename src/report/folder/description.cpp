@@ -140,26 +140,23 @@ std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory&
     constexpr auto interval = Figure::Presentation::interval;
     constexpr const char *lens = "a lens's spot D |1 - z/L| is no wider than the pitch p", *pixel = "|1/z - 1/L| <= a / (g D)";
     const SharpRange by_lens = sharp_by_lens(g, t, eye), by_pixel = sharp_by_pixel(g, t, eye);
-    const double at_lenses = before ? lens_limit_per_mm(g, t, 0, eye) : nan,
-                 at_content = before && eye - g.vertex_plane_mm > z
-                                  ? std::min(lens_limit_per_mm(g, t, z, eye), pixel_limit_per_mm(d, g, z))
-                                  : nan;
-    return {{"by_lens_behind_mm", ends(by_lens.behind), "depth of field by the lens, behind the lenses", lens, none, interval},
-            {"by_lens_in_front_mm", ends(by_lens.in_front),
-             "depth of field by the lens, in front of the lenses, to the viewer at most", lens, none, interval},
-            {"by_pixel_behind_mm", ends(by_pixel.behind), "depth of field by the pixel, behind the lenses", pixel, none, interval},
-            {"by_pixel_in_front_mm", ends(by_pixel.in_front),
-             "depth of field by the pixel, in front of the lenses, to the viewer at most", pixel, none, interval},
-            {"at_the_lenses_per_degree",
-             {cycles_per_degree(g, at_lenses, 0, eye)},
-             "resolution limit at the lenses, as the eye sees it",
-             "E / 2p per radian",
-             inside},
-            {"at_the_content_per_degree",
-             {cycles_per_degree(g, at_content, z, eye)},
-             "resolution limit of lenses and pixels at the content's depth, as the eye sees it",
-             "the smaller of E / 2p and (E - z) g / (2 a |z|) per radian",
-             "the camera is inside the display or behind the content"}};
+    std::vector<double> at_lenses, at_content;  // along x', and along y' where that differs
+    for (std::size_t axis = 0; axis < (differs_by_axis(d.array) ? 2 : 1); ++axis) {
+        at_lenses.push_back(before ? cycles_per_degree(g, lens_limit_per_mm(g, 0, eye, axis), 0, eye) : nan);
+        const double finest = std::min(lens_limit_per_mm(g, z, eye, axis), pixel_limit_per_mm(d, g, z));
+        at_content.push_back(before && eye - g.vertex_plane_mm > z ? cycles_per_degree(g, finest, z, eye) : nan);
+    }
+    return {
+        {"by_lens_behind_mm", ends(by_lens.behind), "depth of field by the lens, behind the lenses", lens, none, interval},
+        {"by_lens_in_front_mm", ends(by_lens.in_front), "depth of field by the lens, in front of the lenses, to the viewer at most",
+         lens, none, interval},
+        {"by_pixel_behind_mm", ends(by_pixel.behind), "depth of field by the pixel, behind the lenses", pixel, none, interval},
+        {"by_pixel_in_front_mm", ends(by_pixel.in_front),
+         "depth of field by the pixel, in front of the lenses, to the viewer at most", pixel, none, interval},
+        {"at_the_lenses_per_degree", at_lenses, "resolution limit at the lenses, as the eye sees it", "E / 2p per radian", inside},
+        {"at_the_content_per_degree", at_content,
+         "resolution limit of lenses and pixels at the content's depth, as the eye sees it",
+         "the smaller of E / 2p and (E - z) g / (2 a |z|) per radian", "the camera is inside the display or behind the content"}};
 }
 
 }  // namespace
