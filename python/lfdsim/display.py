@@ -34,23 +34,22 @@ class Display:
         return display
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Display:
-        """Reads a description from a file. DisplayError names every problem of it with its line."""
-        return cls._of(_core.Display.load(path_text(path, "path")))
+    def load(cls, path: str | os.PathLike[str], changes: Mapping[str, Any] | None = None) -> Display:
+        """Reads a description from a file, with keys changed as by with_(). DisplayError names every problem of it with its line; of
+        what is changed the file may say what is impossible."""
+        return cls._of(_core.Display.load(path_text(path, "path"), _overrides(changes or {})))
 
     @classmethod
-    def parse(cls, text: str, folder: str | os.PathLike[str] | None = None) -> Display:
-        """Reads a description from a text. Files that it names are relative to `folder`; default: the working directory."""
+    def parse(cls, text: str, folder: str | os.PathLike[str] | None = None, changes: Mapping[str, Any] | None = None) -> Display:
+        """Reads a description from a text, with keys changed as by load(). Files that it names are relative to `folder`; default: the
+        working directory."""
         place = os.getcwd() if folder is None else path_text(folder, "folder")
-        return cls._of(_core.Display.parse(text_of(text, "text"), place))
+        return cls._of(_core.Display.parse(text_of(text, "text"), place, _overrides(changes or {})))
 
     def with_(self, changes: Mapping[str, Any]) -> Display:
         """The display with keys changed: {"array.gap_mm": 3.3, "diffuser": None}; None removes a key or table."""
-        if not isinstance(changes, Mapping):
-            raise TypeError(f"changes are a dict of keys and values, not a {type(changes).__name__}")
-        if not changes:
-            return self
-        return Display._of(self._handle.changed([_override(key, value) for key, value in changes.items()]))
+        overrides = _overrides(changes)
+        return Display._of(self._handle.changed(overrides)) if overrides else self
 
     def _with_model(self, model: str | os.PathLike[str] | None) -> Display:
         return self if model is None else Display._of(self._handle.with_model(path_text(model, "model")))
@@ -114,6 +113,12 @@ class Display:
 def _unknown(key: str) -> UnknownKeyError:
     meant = _core.meant(key)
     return UnknownKeyError([("", f"{key or repr(key)}: is unknown; " + (f"did you mean {meant}?" if meant else "docs/format.md lists all keys"))])
+
+
+def _overrides(changes: Mapping[str, Any]) -> list[str]:
+    if not isinstance(changes, Mapping):
+        raise TypeError(f"changes are a dict of keys and values, not a {type(changes).__name__}")
+    return [_override(key, value) for key, value in changes.items()]
 
 
 def _override(key: Any, value: Any) -> str:

@@ -188,16 +188,16 @@ std::vector<LitPart> bounded_parts(const Panel& panel) {
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel& panel) {
-    struct LitRect {
+    struct SubpixelRect {
         std::size_t of;  // number of the subpixel
         CellRect rect;
     };
-    std::vector<LitRect> parts;
+    std::vector<SubpixelRect> parts;
     for (std::size_t k = 0; k < panel.custom.size(); ++k) {
         std::vector<LitPart> of_one;
         add_parts(panel.custom[k], rect_of(panel.custom[k]), subpixel_cell(panel).size, 1, of_one);
         for (const LitPart& p : of_one) {
-            for (const LitRect& other : parts)
+            for (const SubpixelRect& other : parts)
                 if (std::min(p.to[0], other.rect.to[0]) - std::max(p.from[0], other.rect.from[0]) > same &&
                     std::min(p.to[1], other.rect.to[1]) - std::max(p.from[1], other.rect.from[1]) > same)
                     return std::pair(other.of, k);

@@ -166,13 +166,18 @@ std::string check(const Display& display, const nb::object& progress, bool warni
 
 void add_display(nb::module_& m) {
     nb::class_<Display>(m, "Display")
-        .def_static("load", [](const std::string& path) { return read([&] { return read_display(path); }); })
+        .def_static(
+            "load",
+            [](const std::string& path, const std::vector<std::string>& overrides) {
+                return read([&] { return read_display(path, overrides); });
+            },
+            nb::arg("path"), nb::arg("overrides"))
         .def_static(
             "parse",
-            [](const std::string& text, const std::string& folder) {
-                return read([&] { return parse_display(text, "text", {}, folder); });
+            [](const std::string& text, const std::string& folder, const std::vector<std::string>& overrides) {
+                return read([&] { return parse_display(text, "text", overrides, folder); });
             },
-            nb::arg("text"), nb::arg("folder"))
+            nb::arg("text"), nb::arg("folder"), nb::arg("overrides"))
         .def("changed", changed, nb::arg("overrides"))
         .def("with_model", with_model, nb::arg("model"))
         .def("text", write_display)

@@ -15,6 +15,7 @@ find_package(nanobind CONFIG REQUIRED PATHS ${nanobind} NO_DEFAULT_PATH)
 file(GLOB python_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.cpp)
 nanobind_add_module(_core NB_STATIC STABLE_ABI NOMINSIZE ${python_sources})
 target_include_directories(_core PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_include_directories(_core SYSTEM PRIVATE ${NB_DIR}/include)  # whose warnings are not ours
 target_link_libraries(_core PRIVATE lfdsim_report lfdsim_files nlohmann_json::nlohmann_json TBB::tbb fmt::fmt)
 target_compile_definitions(_core PRIVATE LFDSIM_VERSION="${PROJECT_VERSION}")
 set_target_properties(_core PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python/lfdsim)

@@ -329,8 +329,9 @@ TEST(Crosstalk, NoNullWithoutAReason) {
         for (const auto& [key, value] : json.items()) {
             const std::string at = path.empty() ? key : path + "." + key;
             if (value.is_object()) look(value, at);
-            if (value.is_null())
+            if (value.is_null()) {
                 EXPECT_TRUE(result.notes.contains(at) || result.notes.contains(at.substr(0, at.rfind("_error")))) << at;
+            }
         }
     };
     look(result.figures, "");

@@ -205,6 +205,31 @@ TEST(Uniformity, DarkBandsOfRoundLenses) {
     }
 }
 
+// A display and its mirror image are as uniform: blocks of lenses are symmetric about the array's middle.
+TEST(Uniformity, OfAMirrorImageIsTheSame) {
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::strips})
+        for (const double pitch : {0.6, 1.3}) {
+            Display d;
+            d.panel.pixels = {300, 200};
+            d.panel.pixel_pitch_mm = 0.1;
+            d.lens.kind = IdealLens{{}, 4.4};
+            d.array.lattice = lattice;
+            d.array.aperture = Aperture::cell;
+            d.array.pitch_mm = pitch;
+            d.array.gap_mm = 4.6;
+            d.array.offset_mm = {0.3, 0};
+            if (lattice == LatticeKind::strips) d.array.slant_deg = 12;
+            d.diffuser = Diffuser{20, {6, 6}, Profile::box};
+            const Vec3d eye{0, 0, 400};
+            Display mirrored = d;
+            mirrored.array.offset_mm[0] = -0.3;
+            if (lattice == LatticeKind::strips) mirrored.array.slant_deg = -12;
+            const Estimate one = on_screen(d, eye).uniformity_percent(false),
+                           other = on_screen(mirrored, eye).uniformity_percent(false);
+            EXPECT_NEAR(one.value, other.value, 1.5 * (one.error + other.error)) << int(lattice) << " " << pitch;
+        }
+}
+
 // Ideal lenses of every kind, of arrays whose border parts hold fewer lenses, on panels that end before the lines of sight do.
 TEST(Uniformity, MeanLuminanceIsTheory) {
     Display d = wide_panel(ideal_example());

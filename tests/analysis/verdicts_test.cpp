@@ -114,6 +114,14 @@ TEST(Verdicts, ViewsThatDoNotSeparate) {
     focused.lens.as<PlanoConvex>().sphere_radius_mm = 0.8486;
     EXPECT_THAT(verdicts_of(focused), Not(Contains(HasSubstr("views do not separate"))));
 
+    // No radius is proposed that is smaller than the aperture's.
+    Display wide = analysis_example::display(40, 100);
+    wide.diffuser.reset();
+    wide.array.gap_mm = 0.9 * wide.array.pitch_mm[0];
+    wide.lens.kind = PlanoConvex{3 * wide.array.pitch_mm[0], 0.48 * wide.array.pitch_mm[0], 0, 1.49, Facing::viewer};
+    EXPECT_THAT(verdicts_of(wide), Contains(AllOf(HasSubstr("views do not separate"), HasSubstr("which these lenses cannot have"),
+                                                  Not(HasSubstr("lens.sphere_radius_mm =")))));
+
     Display ideal = analysis_example::display(40, 100);
     ideal.diffuser.reset();
     ideal.lens.kind = IdealLens{{}, 0.6 * *ideal.array.gap_mm};

@@ -29,6 +29,15 @@ for kernel in kernels:
 for x0, y0, x1, y1 in [(0, 0, 96, 54), (0, 0, 1, 1), (95, 53, 96, 54), (13, 7, 62, 40), (64, 16, 65, 17)]:
     same(picture("got", f"{shown} --crop {x0},{y0},{x1},{y1}"), wanted[y0:y1, x0:x1], f"crop {x0},{y0},{x1},{y1}")
 same(picture("got", f"{shown} --seed 0"), wanted, "seed 0, the default")
+# An exposure is that of the whole picture, in its parts too; a target error is that of the picture with its exposure.
+exposed = picture("exposed", f"{shown} --exposure auto")
+checks.that((exposed != wanted).any(), "--exposure auto changes nothing")
+same(picture("got", f"{shown} --exposure auto --crop 0,0,30,9"), exposed[:9, :30], "exposure of a crop")
+SPREAD = "--set diffuser.angle_deg=[3,3] --estimator point --target-error"
+made = [json.loads(program.must(f"render tiny.toml -o got.npy {shown} {SPREAD} {options} --json"))
+        for options in ("0.01", "0.02 --exposure 2", "0.02")]
+checks.that(made[0]["samples"] == made[1]["samples"] > made[2]["samples"], f"samples for a target error: {[m['samples'] for m in made]}")
+checks.that(abs(made[1]["error_rms"] / (2 * made[0]["error_rms"]) - 1) < 1e-5, "the error of an exposed picture")
 # Lenses of triangles: points, near those of the true surfaces, and the same on all threads.
 fine = picture("fine", f"{shown} --lens-mesh 100000 --lens-normals smooth --threads 1")
 same(picture("got", f"{shown} --lens-mesh 100000 --lens-normals smooth --threads 2"), fine, "triangles, 2 threads")

@@ -30,7 +30,9 @@ TEST(GlassKey, EveryFormReadsBackTheSame) {
         const Display d = parse_display(glassy(form), "d");
         EXPECT_EQ(parse_display(write_display(d), "written"), d) << form;
         EXPECT_TRUE(disperses(d));
-        if (lens_glass(d).name.empty()) EXPECT_THAT(form, HasSubstr("{ " + std::string(key_of(lens_glass(d).formula)) + " = "));
+        if (lens_glass(d).name.empty()) {
+            EXPECT_THAT(form, HasSubstr("{ " + std::string(key_of(lens_glass(d).formula)) + " = "));
+        }
         EXPECT_FALSE(d.lens.as<PlanoConvex>().index);
     }
     const Display d = parse_display(glassy("\"PMMA\""), "d");

@@ -208,8 +208,9 @@ TEST(EyePlaces, AroundABoxEndWhereTheViewsRepeat) {
             for (const Vec3d& eye : places_around(box, d, g, 3, 200)) most = std::max(most, std::abs(eye[0]));
             const double reach = 3 * view_step_mm(d, g, z), width = share * period;
             EXPECT_LE(most, 0.5 * std::max(period, width) * 1.2 + 1e-9) << name;  // hexagons' rows are closer than their columns
-            if (!is_strips(d.array) && share < 1)
+            if (!is_strips(d.array) && share < 1) {
                 EXPECT_GT(most, 0.5 * width + 0.8 * std::min(reach, 0.5 * (0.86 * period - width))) << name;
+            }
         }
     }
 }

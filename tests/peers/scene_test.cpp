@@ -1,4 +1,5 @@
 // Scenes for other renderers as text and triangles: sizes, places, names from strangers, what is refused.
+#include "base/constants.h"
 #include "engine/scene/traced_display.h"
 #include "examples.h"
 #include "files/description/display_file.h"

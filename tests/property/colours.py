@@ -1,4 +1,6 @@
 """A white panel in red, green and blue: each channel seen where it shines, in its own light. And colours' distances."""
+import math
+
 import numpy as np
 
 import oracle
@@ -38,9 +40,14 @@ def blocks_of_screen(count, most=48):
     """(first lenses (n, 2), their numbers (n, 2)) of blocks of as few whole lenses as make no more than `most` along the longer side."""
     together = -(-count.max() // most)
     parts = np.maximum(count // together, 1)
-    at = np.stack(np.meshgrid(*map(np.arange, parts), indexing="ij"), axis=-1).reshape(-1, 2)
-    first = at * count // parts
-    return first, (at + 1) * count // parts - first
+    parts -= (count % 2 == 1) & (parts % 2 == 0)
+    borders = []
+    for lenses, blocks in zip(count.tolist(), parts.tolist()):  # symmetric about the middle
+        half = [math.floor(k * lenses / blocks + 0.5) for k in range((blocks + 1) // 2)]
+        middle = [lenses // 2] if blocks % 2 == 0 else []
+        borders.append(np.array(half + middle + [lenses - k for k in reversed(half)]))
+    first, end = (np.stack(np.meshgrid(*(ends(b) for b in borders), indexing="ij"), axis=-1).reshape(-1, 2) for ends in (lambda b: b[:-1], lambda b: b[1:]))
+    return first, end - first
 
 
 def middle_block(count, most=48):

@@ -256,6 +256,17 @@ class WholeStudies(StudyTest):
         self.assertIn("holds another study (draws.csv differs)", call(*words[:4], "--draws", 21, "--measure", "check").stderr)
 
 
+    def test_sizes_in_place_of_impossible_ones(self):
+        """What --set changes is judged with it, in the description, in a study's [set] and in Python."""
+        display = self.write(DISPLAY + "[errors]\ndecenter_sd_mm = 0.5\n", "too_much.toml")
+        found = study.tolerance(
+            display, self.folder / "out", 3, alone=2, measures=("check",), progress=False, set={"errors.decenter_sd_mm": 0.01, "diffuser": None}
+        )
+        self.assertEqual((found.layout.sizes, len(found.draws)), ({"errors.decenter_sd_mm": 0.01}, 3))
+        with self.assertRaisesRegex(StudyError, "decenter_sd_mm of up to"):
+            study.tolerance(display, self.folder / "other", 3, alone=2, measures=("check",), progress=False)
+        self.assertEqual(lfdsim.Display.load(display, {"errors.decenter_sd_mm": 0.01})["errors.decenter_sd_mm"], 0.01)
+
     def test_decentres_that_are_impossible(self):
         """Lenses 12 mm wide may stand 0.6 mm aside at most: three standard deviations of 0.15 mm fit, of twice that none."""
         display = self.write(DISPLAY, "plain.toml")

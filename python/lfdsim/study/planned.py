@@ -82,7 +82,7 @@ class Plan:
         for name, sum_ in self.files.items():
             if _digest_of(self.display_folder / name) != sum_:
                 raise StudyError(self.display_folder / name, "has changed since the study was planned; give the study another folder")
-        return lfdsim.Display.parse(self.display_text, self.display_folder)
+        return work.described(self.display_text, self.display_folder, self.study.fixed)
 
 
 def make(path: str | pathlib.Path, folder: str | pathlib.Path) -> Plan:
@@ -215,7 +215,7 @@ def display_in(path: pathlib.Path, fixed: dict[str, Any]) -> tuple[str, "lfdsim.
     """A description's text and its display, which has to be possible with the overrides `fixed`."""
     text = files.read_text(path)
     try:
-        display = lfdsim.Display.parse(text, path.parent.resolve())
+        display = work.described(text, path.parent.resolve(), fixed)
         lfdsim.check(work.changed(display, path.parent, fixed), warnings=False)
         return text, display
     except ValueError as error:

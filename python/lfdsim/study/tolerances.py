@@ -120,7 +120,7 @@ def tolerance(
         if not (folder / "plan.json").exists():
             files.refuse_foreign(folder / "tolerance.html")
         _keep(folder / "draws.csv", errors.rows_csv(layout, seed))
-        _keep(folder / "tolerance.toml", _study_text(display, measures, {k: v for k, v in changes.items() if k not in sizes}))
+        _keep(folder / "tolerance.toml", _study_text(display, measures, changes))
         plan = api.plan(folder / "tolerance.toml", folder)
     # As objectives they are found to be figures, or not, after the first chunk.
     wishes = tuple(Objective(loss.figure, "low") for loss in losses)
@@ -158,7 +158,7 @@ def _keep(path: pathlib.Path, text: str) -> None:
 def _study_text(display: pathlib.Path, measures: tuple[str | dict[str, Any], ...], fixed: Mapping[str, Any]) -> str:
     text = f'schema = 1\ndisplay = {json.dumps(str(display.resolve()))}\ndesign = "table"\ntable = "draws.csv"\n'
     if fixed:
-        text += "\n[set]\n" + "".join(f"{json.dumps(key)} = {toml_text(value)}\n" for key, value in fixed.items())
+        text += "\n[set]\n" + "".join(f"{json.dumps(key)} = {toml_text('none' if value is None else value)}\n" for key, value in fixed.items())
     for measure in measures:
         if isinstance(measure, dict):
             settings = measure.get("settings", {})

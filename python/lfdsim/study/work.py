@@ -68,6 +68,12 @@ def changed(base: "lfdsim.Display", folder: pathlib.Path, overrides: dict[str, V
     return base.with_(whole) if whole else base
 
 
+def described(text: str, folder: pathlib.Path, fixed: Mapping[str, Any]) -> "lfdsim.Display":
+    """The display of a description with the whole keys of `fixed` changed: without them it need not be possible."""
+    whole = {k: None if v == "none" else v for k, v in _in_folder(fixed, folder).items() if not k.rpartition(".")[2].isdigit()}
+    return lfdsim.Display.parse(text, folder, whole)
+
+
 def _in_folder(values: Mapping[str, Any], folder: pathlib.Path) -> dict[str, Any]:
     """Names of files that are there, with their folder: a worker's own is another."""
     return {k: str(folder / v) if isinstance(v, str) and names_file(folder, v) else v for k, v in values.items()}

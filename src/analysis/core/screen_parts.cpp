@@ -11,15 +11,25 @@ ScreenParts::ScreenParts(const Display& d, const Geometry& g, int most_along)
     : lattice_(g.lattice), panel_behind_(g), lenses_(lens_count(d.panel, d.array)) {
     if (lattice_.strips) lenses_[1] = std::max(std::llround(lattice_.pitch[1] / lattice_.pitch[0]), 1LL);
     together_ = (std::max(lenses_[0], lenses_[1]) + most_along - 1) / most_along;
-    for (std::size_t k = 0; k < 2; ++k) count_[k] = int(std::max<std::int64_t>(lenses_[k] / together_, 1));
+    for (std::size_t k = 0; k < 2; ++k) {
+        count_[k] = int(std::max<std::int64_t>(lenses_[k] / together_, 1));
+        count_[k] -= lenses_[k] % 2 == 1 && count_[k] % 2 == 0;  // no border of blocks may pass through the middle lens
+    }
 }
 
 LensBlock ScreenParts::block(int part) const {
     const std::array<std::int64_t, 2> at{part % count_[0], count_[1] - 1 - part / count_[0]};
     LensBlock block{};
     for (std::size_t k = 0; k < 2; ++k) {
-        block.first[k] = at[k] * lenses_[k] / count_[k];
-        block.end[k] = (at[k] + 1) * lenses_[k] / count_[k];
+        // Border number i is the whole number of lenses nearest to i lenses/count, and as far from the other end of the array as
+        // its counterpart is from this one: a mirror image of the display has the mirror images of the blocks.
+        const auto border = [&](std::int64_t i) {
+            const std::int64_t from_end = std::min(i, count_[k] - i),
+                               lenses = (2 * from_end * lenses_[k] + count_[k]) / (2 * count_[k]);
+            return i == from_end ? lenses : lenses_[k] - lenses;
+        };
+        block.first[k] = border(at[k]);
+        block.end[k] = border(at[k] + 1);
     }
     return block;
 }

@@ -15,8 +15,8 @@ struct LensBlock {
     double lenses() const { return double(end[0] - first[0]) * double(end[1] - first[1]); }
 };
 
-/// Columns and rows of blocks that differ by at most one lens along each axis. A block has as few lenses, about the same number
-/// along both axes, as give no more than `most_along` blocks along the longer side.
+/// Columns and rows of blocks that differ by at most one lens along each axis, symmetric about the array's middle. A block has as
+/// few lenses, about the same number along both axes, as give no more than `most_along` blocks along the longer side.
 class ScreenParts {
   public:
     ScreenParts(const Display&, const Geometry&, int most_along);

@@ -3,6 +3,7 @@
 #include "analysis/core/quick_look.h"
 #include "analysis/crosstalk/intended_panel.h"
 #include "base/constants.h"
+#include "checks/first_order.h"
 #include "content/pickup/shown_points.h"
 #include "geometry/dark_bands.h"
 #include "geometry/lens_misalignment.h"
@@ -111,16 +112,25 @@ std::string focus_remedy(Display d, const Geometry& g, const Theory& t, double m
         place(t.central_depth_mm), g.focal_length_mm, g.gap_mm, to_eye ? "at the eye" : "on the panel", focal,
         to_eye ? "" : ", the gap,", to_eye ? "there" : "on the panel");
     const double stronger = focal / g.focal_length_mm;
-    if (d.lens.type() == LensType::plano_convex && stronger > 0)
-        remedy += fmt::format(": with this glass a radius of {0:.4g} mm (lens.sphere_radius_mm = {0:.4g})",
-                              d.lens.as<PlanoConvex>().sphere_radius_mm * stronger);
+    std::string too_strong;
+    if (d.lens.type() == LensType::plano_convex && stronger > 0) {
+        Display other = d;
+        double& radius = other.lens.as<PlanoConvex>().sphere_radius_mm;
+        radius = to_nanometre(radius * stronger);
+        if (valid(other))
+            remedy += fmt::format(": with this glass a radius of {0} mm (lens.sphere_radius_mm = {0})", radius);
+        else
+            too_strong =
+                fmt::format(". With this glass a focal length of {:.4g} mm takes a radius of {} mm, which these lenses cannot have",
+                            focal, radius);
+    }
     if (d.lens.type() == LensType::ideal) remedy += fmt::format(" (--set lens.focal_length_mm={:.4g})", focal);
     const char* const only = d.array.base_z_mm ? "array.base_z_mm=none " : "";  // either key, not both
     d.array.base_z_mm.reset();
     d.array.gap_mm = g.focal_length_mm;
     if (!to_eye && g.focal_length_mm > 0 && !g.glued && valid(d))
         remedy += fmt::format(", as would these at a gap of {0:.4g} mm (--set {1}array.gap_mm={0:.4g})", g.focal_length_mm, only);
-    return remedy;
+    return remedy + too_strong;
 }
 
 /// Returns whether an eye sees at most half of an elemental image at once.

@@ -112,13 +112,14 @@ void run(const RenderArguments& args) {
     const auto light = [&] {
         return shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     };
-    const RenderOptions options{args.work.threads(), args.kernel.text(), crop, target, device};
+    RenderOptions options{args.work.threads(), args.kernel.text(), crop, target, device};
     if (path) return render_frames(args, display, *path, options, light, progress);
     const PanelTexels panel = light();
+    // The exposure scales the finished picture and its error, for which the target is.
+    const std::optional<double> exposure = args.exposure.factor(display, geometry, options, progress);
+    if (exposure && target) options.target_error = *target / *exposure;
     Rendering r = lens ? render_meshed(display, geometry, panel.texels, *lens, options, progress)
                        : render(display, geometry, panel.texels, options, progress);
-    // The exposure scales the finished picture and its error.
-    const std::optional<double> exposure = args.exposure.factor(display, geometry, options, progress);
     if (exposure) ExposureOption::apply(*exposure, r);
     Rendered facts = rendered(r, target, keeps_layers(args.output.path()));
     if (exposure) {

@@ -39,11 +39,9 @@ std::optional<double> ExposureOption::factor(const Display& display, const Geome
     Texels white(columns, rows);
     std::fill_n(white.data(), columns * rows * 4, 1.f);
     options.target_error.reset();
+    options.crop.reset();  // parts of a picture have the exposure of the whole
     const Rendering r = render(display, geometry, white, options, job);
-    const Rect crop = options.crop.value_or(Rect{0, 0, r.image.width, r.image.height});
-    Region screen = Region::of({0, 0, r.image.width, r.image.height});
-    if (const auto seen = screen_region(display, geometry))
-        screen = seen->intersected(Region::of(crop)).shifted(-crop.x0, -crop.y0);
+    const Region screen = screen_region(display, geometry).value_or(Region::of({0, 0, r.image.width, r.image.height}));
     const double mean = screen.pixels() > 0 ? mean_light(r.image, screen) : 0;
     if (!(mean > 0))
         throw InputError("--exposure", "is auto, but this picture would be dark even with a white panel; give a number");

@@ -18,8 +18,8 @@ class ExposureOption {
     /// Throws InputError for anything but a positive number or "auto".
     void check() const;
 
-    /// Returns the factor; nothing without the option. "auto" renders a white panel, and makes its mean over the screen 1. Throws
-    /// InputError where the picture shows no light of the screen.
+    /// Returns the factor; nothing without the option. "auto" renders the whole frame with a white panel, and makes its mean over
+    /// the screen 1. Throws InputError where that frame shows no light of the screen.
     std::optional<double> factor(const Display&, const Geometry&, RenderOptions, Job&) const;
 
     /// Multiplies a picture's light and its errors by a factor.

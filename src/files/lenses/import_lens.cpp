@@ -242,9 +242,9 @@ class LensImport {
         // The angle of a lens pitch from the diffuser at the distance d, 2 atan(p / 2d), closes the gaps between lenses.
         diffuser.distance_mm = rounded(std::min(std::abs(depth), room / 4));
         diffuser.angle_deg.fill(rounded(2 * std::atan(d.array.pitch_mm[0] / (2 * diffuser.distance_mm)) / degree));
-        notes.push_back(
-            "A diffuser closes the dark gaps between the lenses; it is on the central depth plane, at most a quarter of the way to "
-            "the eye.");
+        notes.push_back(fmt::format(
+            "A diffuser closes the dark gaps between the lenses; it is {}, at most a quarter of the way to the eye.",
+            depth > 0 ? "on the central depth plane" : "as far in front of the lenses as the central depth plane is behind them"));
     }
 
     // Returns the gap from the panel to the lens's principal plane, mm, in the green light that determines lengths here.

@@ -85,8 +85,8 @@ int read_orientation(std::FILE* file) {
     return std::max(found, 1);
 }
 
-Upright::Upright(int orientation, std::int64_t stored_columns, std::int64_t stored_rows)
-    : columns(stored_columns), rows(stored_rows), stored_columns(stored_columns), stored_rows(stored_rows) {
+Upright::Upright(int orientation, std::int64_t width, std::int64_t height)
+    : columns(width), rows(height), stored_columns(width), stored_rows(height) {
     // The stored picture is mirrored, then exchanges x and y.
     const bool from_right = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8,
                from_below = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7,

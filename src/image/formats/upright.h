@@ -14,7 +14,7 @@ struct Upright {
     std::int64_t columns, rows, stored_columns, stored_rows;
     std::int64_t first, row_step, pixel_step;
 
-    Upright(int orientation, std::int64_t stored_columns, std::int64_t stored_rows);
+    Upright(int orientation, std::int64_t width, std::int64_t height);
 
     /// Returns the index, row by row, of a stored row's first pixel; each of the others follows after `pixel_step`.
     std::int64_t row(std::int64_t stored) const { return first + stored * row_step; }
