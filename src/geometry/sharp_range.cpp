@@ -83,7 +83,7 @@ std::string depths_in_words(const Geometry& g, const SharpRange& range, double e
 
 double lens_limit_per_mm(const Geometry& g, double depth, double eye_mm, std::size_t axis) {
     const double to_eye = eye_mm - g.vertex_plane_mm;
-    return to_eye / (2 * lens_pitch_mm(g, axis) * (to_eye - depth));
+    return 1 / (2 * lens_pitch_mm(g, axis)) * to_eye / (to_eye - depth);
 }
 
 double pixel_limit_per_mm(const Display& d, const Geometry& g, double depth) {

@@ -113,16 +113,12 @@ std::string focus_remedy(Display d, const Geometry& g, const Theory& t, double m
         to_eye ? "" : ", the gap,", to_eye ? "there" : "on the panel");
     const double stronger = focal / g.focal_length_mm;
     std::string too_strong;
-    if (d.lens.type() == LensType::plano_convex && stronger > 0) {
-        Display other = d;
-        double& radius = other.lens.as<PlanoConvex>().sphere_radius_mm;
-        radius = to_nanometre(radius * stronger);
-        if (valid(other))
-            remedy += fmt::format(": with this glass a radius of {0} mm (lens.sphere_radius_mm = {0})", radius);
-        else
-            too_strong =
-                fmt::format(". With this glass a focal length of {:.4g} mm takes a radius of {} mm, which these lenses cannot have",
-                            focal, radius);
+    Display other = d;
+    if (auto* ball = std::get_if<PlanoConvex>(&other.lens.kind); ball && stronger > 0) {
+        const double radius = ball->sphere_radius_mm = to_nanometre(ball->sphere_radius_mm * stronger);
+        if (valid(other)) remedy += fmt::format(": with this glass a radius of {0} mm (lens.sphere_radius_mm = {0})", radius);
+        if (!valid(other))
+            too_strong = fmt::format(". Such a focal length takes a radius of {} mm, too small for these lenses", radius);
     }
     if (d.lens.type() == LensType::ideal) remedy += fmt::format(" (--set lens.focal_length_mm={:.4g})", focal);
     const char* const only = d.array.base_z_mm ? "array.base_z_mm=none " : "";  // either key, not both

@@ -42,9 +42,10 @@ struct RenderArguments {
     WorkOptions work{command};
     Option kernel = command.option("--kernel", "scalar|baseline|avx2|avx512",
                                    "Instruction set; default: environment variable LFDSIM_KERNEL, else the best available");
-    Option target_error = command.option("--target-error", "E",
-                                         "Add samples until the estimated error of each 4 x 4 pixels is below E, in linear light; "
-                                         "an .exr then has a layer \"error\"");
+    Option target_error =
+        command.option("--target-error", "E",
+                       "Add samples until the estimated error is below E, in linear light: of points that of each "
+                       "4 x 4 pixels, of filtered light that of the picture; an .exr then has a layer \"error\"");
 };
 
 void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
