@@ -81,7 +81,7 @@ def summary(found: Tolerance) -> list[str]:
         for _, line in of_it.iterrows():
             size = "" if line["error"] == ALL else f", {_sizes(line)}"
             lines.append(f"  {line['error']}: {_scale(line)} of its size{size}; {line['how']}")
-        lines += [f"  {TOO_FEW}"] if of_it["allowed scale from"].isna().any() else []
+        lines += [f"  {told}"] if (told := _too_few(of_it)) else []
     return lines
 
 
@@ -103,16 +103,19 @@ def _budget(found: Tolerance, figure: str, percent: float) -> str:
         ]
         for _, line in lines.iterrows()
     ]
-    told = f" {TOO_FEW}" if lines["allowed scale from"].isna().any() else ""
     head = ["error", "size", f"loss of the worst {100 - percent:g} %", "allowed scale", "allowed size", ""]
     return (
-        f"<h2>Budget for {html.escape(figure)}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays.{told}</p>"
+        f"<h2>Budget for {html.escape(figure)}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays. {_too_few(lines)}</p>"
         + page.table(head, rows)
         + _curves(found, lines, first["allowed"])
     )
 
 
-TOO_FEW = "How far chance may have moved an allowed scale is not known without two draws beyond the percentile: give more (alone, --alone)."
+def _too_few(lines: pd.DataFrame) -> str:
+    """Why known scales have no interval, where that is so."""
+    unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna()
+    why = "How far chance may have moved an allowed scale is not known without two draws beyond the percentile: give more (alone, --alone)."
+    return why if unsure.any() else ""
 
 
 def _scale(line: pd.Series) -> str:
