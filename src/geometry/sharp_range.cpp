@@ -51,7 +51,7 @@ std::size_t tighter_axis(const Geometry& g) {
     if (g.lattice.strips) return 0;
     const auto& D = g.clear_aperture_mm;
     const double x = lens_pitch_mm(g, 0) / D[0], y = lens_pitch_mm(g, 1) / D[1];
-    constexpr double equal = 1e-12;  // relative, of ratios that rounding alone makes different
+    constexpr double equal = 1e-12;  // relative: ratios closer than this differ by rounding alone
     return std::abs(x - y) <= equal * x ? (D[1] > D[0] ? 1 : 0) : (y < x ? 1 : 0);
 }
 

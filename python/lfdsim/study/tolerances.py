@@ -210,8 +210,8 @@ def _percentiles(kept: "pandas.DataFrame", without: "pandas.Series", names: list
 def _budget(
     layout: Layout, rows: "pandas.DataFrame", without: "pandas.Series", losses: tuple[Loss, ...], percent: float
 ) -> "pandas.DataFrame":
-    """For each loss and group: the loss that `percent` of displays stay below at each scale; at which scale that is what is allowed, and
-    from where to where chance leaves that."""
+    """For each loss and group: the loss that `percent` of displays stay below at each scale; the scale at which that is the allowed loss,
+    and the interval of that scale by _chance()."""
     import pandas
 
     def percentile(lost: np.ndarray) -> float:
@@ -223,12 +223,12 @@ def _budget(
         for group in layout.groups:
             lost, cut, of_all = {}, {}, np.nan
             for scale, block in ((s, r) for g, s, r in layout.blocks() if g == group):
-                of_block = loss.of(rows[loss.figure].to_numpy(float)[list(block)], without[loss.figure])
-                lost[scale] = of_block[: layout.alone]  # as many draws at each scale, so that these are the same ones
+                of_block = loss.of(rows[loss.figure].to_numpy(float)[block.start : block.stop], without[loss.figure])
+                lost[scale] = of_block[: layout.alone]  # the same draws at each scale
                 if scale == 1:
                     of_all = percentile(of_block)
                 if np.isinf(percentile(lost[scale])):
-                    cut[scale] = _why_none(rows["error"].iloc[list(block)[: layout.alone]], lost[scale])
+                    cut[scale] = _why_none(rows["error"].iloc[block.start : block.start + layout.alone], lost[scale])
             at = {s: percentile(values) for s, values in lost.items()}
             scale, how = allowed_scale(at, loss.amount, cut)
             low, high = _chance(lost, loss.amount, percent, percentile)
@@ -255,8 +255,8 @@ def _budget(
 def _chance(
     lost: dict[float, np.ndarray], amount: float, percent: float, percentile: Callable[[np.ndarray], float]
 ) -> tuple[float, float]:
-    """Between which scales the allowed one lies, by bootstrap: draws are drawn again from those that there are, the same ones at each
-    scale (Efron 1979). NaN where fewer than two draws lie beyond the percentile, which then says nothing of what is beyond it."""
+    """The central 95 % of allowed scales by bootstrap (Efron 1979): draws are resampled with replacement, alike at each scale. NaN where
+    fewer than two draws lie beyond the percentile: they do not determine it."""
     draws = len(next(iter(lost.values())))
     if draws * (1 - percent / 100) < 2 - 1e-9:
         return float("nan"), float("nan")

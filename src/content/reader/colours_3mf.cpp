@@ -34,7 +34,7 @@ bool has_attribute(const std::string& text, const std::string& element, const st
     return false;
 }
 
-// Returns whether an object with a mesh has no material of its own, in a file that has materials.
+// Returns whether a file with base materials has an object with a mesh and without a material.
 bool has_bare_mesh(const std::string& text) {
     if (text.find("<basematerials") == std::string::npos) return false;
     for (std::size_t at = text.find("<object "); at != std::string::npos; at = text.find("<object ", at + 1)) {

@@ -81,7 +81,7 @@ def summary(found: Tolerance) -> list[str]:
         for _, line in of_it.iterrows():
             size = "" if line["error"] == ALL else f", {_sizes(line)}"
             lines.append(f"  {line['error']}: {_scale(line)} of its size{size}; {line['how']}")
-        lines += [f"  {told}"] if (told := _too_few(of_it)) else []
+        lines += [f"  {reason}"] if (reason := _too_few(of_it)) else []
     return lines
 
 
@@ -114,12 +114,12 @@ def _budget(found: Tolerance, figure: str, percent: float) -> str:
 def _too_few(lines: pd.DataFrame) -> str:
     """Why known scales have no interval, where that is so."""
     unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna()
-    why = "How far chance may have moved an allowed scale is not known without two draws beyond the percentile: give more (alone, --alone)."
-    return why if unsure.any() else ""
+    reason = "The uncertainty of an allowed scale is not known without two draws beyond the percentile: give more (alone, --alone)."
+    return reason if unsure.any() else ""
 
 
 def _scale(line: pd.Series) -> str:
-    """The allowed scale, and within what chance leaves it."""
+    """The allowed scale and its interval."""
     low, high = line["allowed scale from"], line["allowed scale to"]
     return f"{line['allowed scale']:.3g}" + ("" if np.isnan(low) or low == high else f" ({low:.3g} to {high:.3g})")
 
