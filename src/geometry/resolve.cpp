@@ -220,6 +220,8 @@ double lens_pitch_mm(const Geometry& g, std::size_t axis) {
     return g.lattice.pitch[g.lattice.hexagonal || g.lattice.strips ? 0 : axis];
 }
 
+double height_per_pitch(const Geometry& g) { return g.lattice.hexagonal ? 2 / std::sqrt(3) : 1; }
+
 double outer_radius_mm(const Display& d, const Geometry& g) {
     return outer_radius_mm(d.array) * (g.lattice.pitch[0] / d.array.pitch_mm[0]);
 }

@@ -20,6 +20,9 @@ bool stop_at_entrance(const Display&, const Geometry&);
 /// Returns the lens pitch p of the array as built, mm along x' (axis 0) or y' (1); hexagons and strips have one.
 double lens_pitch_mm(const Geometry&, std::size_t axis);
 
+/// Returns the height of a cell per lens pitch along y': 2/sqrt(3) of hexagons, from corner to corner, else 1.
+double height_per_pitch(const Geometry&);
+
 /// Returns the radius of the smallest disk around a cell of the array as built, mm; of strips p/2.
 double outer_radius_mm(const Display&, const Geometry&);
 

@@ -109,6 +109,21 @@ LFDSIM_FN S reach_of_cell(const Lattice<S>& lattice) {
     return lattice.hexagonal ? lattice.half_pitch[0] * S(1.1547005383792515) : lattice.half_pitch[1];  // 2/sqrt(3) to the corner
 }
 
+/// The corners of a cell, mm from its axis, counter-clockwise; the right side is that from corner 0 to corner 1.
+template <class S>
+struct CellCorners {
+    int count;
+    S x[6], y[6];
+};
+/// Returns the corners of a cell: 6 of a hexagon, 4 of a rectangle; a strip ends at half_pitch[1].
+template <class S>
+LFDSIM_FN CellCorners<S> corners_of_cell(const Lattice<S>& lattice) {
+    const S x = lattice.half_pitch[0], y = reach_of_cell(lattice);
+    if (!lattice.hexagonal) return {4, {x, x, -x, -x}, {-y, y, y, -y}};
+    const S beside = S(0.5) * y;
+    return {6, {x, x, S(0), -x, -x, S(0)}, {-beside, beside, y, beside, -beside, -y}};
+}
+
 /// Returns the part of a distance along y' on which a lens's sag depends: all of it, or 0 for strips, whose section is the same
 /// everywhere.
 template <class F>

@@ -32,9 +32,8 @@ struct MovedCaps {
     }
     /// Returns whether a cell's corners lie within the semi-aperture. Those of an array that is stretched by an error may not.
     LFDSIM_FN bool holds_cell(const SurfaceData<S>& surface) const {
-        const S x = display.lattice.half_pitch[0],
-                y = display.lattice.hexagonal ? x * S(0.57735026918962576) : display.lattice.half_pitch[1];  // 1/sqrt(3)
-        return x * x + y * y <= surface.semi_aperture * surface.semi_aperture;
+        const CellCorners<S> cell = corners_of_cell(display.lattice);
+        return cell.x[0] * cell.x[0] + cell.y[0] * cell.y[0] <= surface.semi_aperture * surface.semi_aperture;
     }
     /// Returns the height of a lens's cap over the panel at a point from its axis.
     LFDSIM_FN F cap(const SurfaceData<S>& surface, const LensPose<F>& pose, Vec2<F> at) const {

@@ -104,7 +104,7 @@ TEST(PupilLight, ShareOfTheCellIsWhatLinesOfSightFind) {
         }
         ++checked;
         inside += g.pupil.inner_z.has_value();
-        cut += shape.form == ApertureShape::ApertureForm::cut;
+        cut += shape.outline.size() > 6;  // arcs between the sides
     }
     EXPECT_GT(checked, 12);
     EXPECT_GT(inside, 3);
@@ -121,7 +121,7 @@ TEST(PupilLight, WavesOverCutCells) {
         g.pupil = {lattice == LatticeKind::square ? 4.7 : 4.3, {}, 1};
         g.clear_aperture_mm = {8, 8};
         const ApertureShape shape = aperture_shape(d, g);
-        ASSERT_EQ(shape.form, ApertureShape::ApertureForm::cut);
+        ASSERT_GT(shape.outline.size(), 6u);
         constexpr int steps = 800;
         const double side = 10;
         const std::array<std::array<double, 2>, 3> waves{{{0.05, 0.02}, {0.2, -0.13}, {0.0, 0.4}}};

@@ -276,7 +276,7 @@ TEST(Cell, OfAStripIsCoveredOnce) {
     const MeshedArray made = peers::mesh_array(d, g, 1000);
     const Patch *cap = named(made.cell, "surface-2"), *flat = named(made.cell, "flat-2");
     ASSERT_TRUE(cap && flat);
-    const double length = 2 * cell_half(d, g)[1];
+    const double length = 2 * cell_half(g)[1];
     EXPECT_NEAR(area_from_above(*cap), 11 * length, 1e-6 * length);
     EXPECT_NEAR(area_from_above(*flat), length, 1e-6 * length);
     // A stop's slit

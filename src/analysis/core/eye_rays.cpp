@@ -115,14 +115,11 @@ Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
         const double place = 0.5 * choice[k] - by / lattice.pitch[k];
         return lattice.pitch[k] * (place - std::floor(place + 0.5));
     };
-    Place place{in_cell(0, moved.x), in_cell(1, moved.y)};
-    // The rectangles p by p_y about hexagons' axes cover the plane as the hexagons do: a position outside of this hexagon lies in
-    // a neighbouring one, and is taken relative to that.
-    if (lattice.hexagonal) {
-        const Place centre = optics::axis_of(lattice, optics::cell_at(lattice, place.x, place.y));
-        place = {place.x - centre.x, place.y - centre.y};
-    }
-    return point(axis.x + place.x, axis.y + place.y);
+    const Place place{in_cell(0, moved.x), in_cell(1, moved.y)};
+    // The rectangles p by p_y about the axes cover the plane as the cells do: a position outside of this cell lies in a
+    // neighbouring one, and is taken relative to that.
+    const Place centre = optics::axis_of(lattice, optics::cell_at(lattice, place.x, place.y));
+    return point(axis.x + (place.x - centre.x), axis.y + (place.y - centre.y));
 }
 
 Sight EyeRays::look_through(const Vec3d& eye, const Vec3d& at, double a, double b) const {

@@ -140,8 +140,8 @@ std::optional<Stop> stop_against_overlap(const Display& d, const Geometry& g) {
     });
 }
 
-/// Returns the remedy for views that a diffuser mixes: one that is weaker by a factor along the eyes' line or, where the
-/// array is turned and this alone does not separate the views, along both axes.
+/// Returns the remedy for views that a diffuser mixes: a diffuser with an angle smaller by `factor` along the line of the eyes. In
+/// a rotated array both angles mix views, so both are reduced where one is not enough.
 std::string weaker_diffuser(Display d, const Geometry& g, double factor) {
     const double cosine = std::abs(g.lattice.cos_turn), sine = std::abs(g.lattice.sin_turn);
     const std::size_t main = g.lattice.strips && cosine < sine ? 1 : 0;

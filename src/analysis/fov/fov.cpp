@@ -121,13 +121,13 @@ double most_aside_deg(const Json& figures) {
     return most;
 }
 
-/// Adds the eyebox, the extent of the field of view in the plane at the eye's distance, width and height, mm; by theory E p'/g.
+/// Adds the eyebox, the extent of the field of view in the plane at the eye's distance, width and height, mm; by theory E p'/g,
+/// upwards times the image's height per p'.
 void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>& ranges) {
-    // A hexagon's image is 2/sqrt(3) as high as its pitch, from corner to corner.
-    const bool hexagon = s.display().array.lattice == LatticeKind::hexagon;
+    const double height = height_per_pitch(s.geometry());
     const auto theory = [&](std::size_t axis) {
         return (s.viewing_distance_mm() - s.geometry().rear_principal_mm) * s.theory().along[axis].elemental_pitch_mm /
-               s.theory().gap_mm * (hexagon && axis == 1 ? 2 / std::sqrt(3) : 1);
+               s.theory().gap_mm * (axis == 1 ? height : 1);
     };
     std::vector<double> size, error;
     std::string missing;
@@ -141,16 +141,16 @@ void add_eyebox(Result& result, const Subject& s, const std::array<OwnRange, 2>&
             {.label = axis == 0 ? "Eyebox, width" : "Eyebox, height",
              .unit = "mm",
              .theory = theory(axis),
-             .remark = hexagon && axis == 1 ? "theory: from corner to corner of the hexagons' images; the lenses' blur removes "
-                                              "light from the corners first"
-                                            : fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images",
-                                                          s.viewing_distance_mm())});
+             .remark = axis == 1 && height > 1 ? "theory: from corner to corner of the hexagons' images; the lenses' blur removes "
+                                                 "light from the corners first"
+                                               : fmt::format("where an eye {:.4g} mm from the panel sees lenses' own images",
+                                                             s.viewing_distance_mm())});
         if (!why.empty()) missing = why;
     }
     result.figures["eyebox_mm"] = numbers_json(size);
     result.figures["eyebox_mm_error"] = numbers_json(error);
     result.figures["theory_eyebox_mm"] =
-        hexagon ? numbers_json({theory(0), theory(1)}) : axes_json(s.display().array, theory(0), theory(1));
+        height > 1 ? numbers_json({theory(0), theory(1)}) : axes_json(s.display().array, theory(0), theory(1));
     if (!missing.empty()) result.note("eyebox_mm", missing);
 }
 
@@ -198,8 +198,8 @@ Result measure_fov(Subject& subject, Job& job) {
         const std::string way = is_strips(display.array) ? "across the strips" : name;  // the arc's direction
         const OwnRange &lenses = geometric.lenses[std::size_t(axis)], &diffused = geometric.diffused[std::size_t(axis)];
         const AngleCurves curves = angle_curves(subject, shown, axis, angles, job);
-        // Theory's pitch is the distance of rows; a hexagon's image has a corner above its middle, beyond that.
-        const bool corner = axis == 1 && display.array.lattice == LatticeKind::hexagon;
+        // Theory is of an image p' high; that of a hexagon has a corner above its middle, beyond that.
+        const bool corner = axis == 1 && height_per_pitch(subject.geometry()) > 1;
         add_geometry(result, name, way, lenses, diffused, corner ? FigureValue() : std::vector{-edge[axis], edge[axis]});
         add_likeness(result, name, way, curves, diffused, edge[axis], fades_over_deg(subject, axis));
         table.columns.push_back({name + "_ssim", curves.screen.value});

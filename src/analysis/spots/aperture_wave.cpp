@@ -3,10 +3,10 @@
 #include "base/constants.h"
 #include "base/sinc.h"
 #include "geometry/resolve.h"
+#include "optics/lattice.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace lfdsim {
@@ -64,12 +64,6 @@ Corners rectangle(double half_x, double half_y) {
     return {{half_x, -half_y}, {half_x, half_y}, {-half_x, half_y}, {-half_x, -half_y}};
 }
 
-/// Returns a hexagon of the inradius `half` with corners up and down.
-Corners hexagon(double half) {
-    const double corner = half * 2 / std::numbers::sqrt3;
-    return {{half, -corner / 2}, {half, corner / 2}, {0, corner}, {-half, corner / 2}, {-half, -corner / 2}, {0, -corner}};
-}
-
 /// Adds an arc as chords between equal angles. They lie a little outside of the circle, such that each triangle has its sector's
 /// area: R^2 sin(step) = r^2 step.
 void add_arc(Corners& to, double radius, double from, double until, int chords) {
@@ -102,6 +96,13 @@ Corners within_circle(const Corners& corners, double radius) {
 
 }  // namespace
 
+Corners cell_corners(const Lattice<double>& lattice, double scale) {
+    const auto cell = optics::corners_of_cell(lattice);
+    Corners corners;
+    for (int k = 0; k < cell.count; ++k) corners.push_back({scale * cell.x[k], scale * cell.y[k]});
+    return corners;
+}
+
 ApertureShape aperture_shape(const Display& d, const Geometry& g) {
     using ApertureForm = ApertureShape::ApertureForm;
     const Pupil& pupil = g.pupil;
@@ -109,11 +110,13 @@ ApertureShape aperture_shape(const Display& d, const Geometry& g) {
     if (d.array.aperture == Aperture::circle) return {ApertureForm::disk, g.clear_aperture_mm};
     // A cell that the pupil contains, or that contains the pupil, is not cut.
     const std::array<double, 2> cell{pupil.cells * lens_pitch_mm(g, 0), pupil.cells * lens_pitch_mm(g, 1)};
-    const ApertureForm form = g.lattice.hexagonal ? ApertureForm::hexagon : ApertureForm::rectangle;
+    const Corners corners = cell_corners(g.lattice, pupil.cells);
     if (pupil.radius_mm <= 0.5 * std::min(cell[0], cell[1])) return {ApertureForm::disk, g.clear_aperture_mm};
-    if (pupil.radius_mm >= pupil.cells * outer_radius_mm(d, g) * (1 - 1e-12)) return {form, cell};
-    const Corners corners = form == ApertureForm::hexagon ? hexagon(0.5 * cell[0]) : rectangle(0.5 * cell[0], 0.5 * cell[1]);
-    return {ApertureForm::cut, g.clear_aperture_mm, within_circle(corners, pupil.radius_mm)};
+    if (pupil.radius_mm >= pupil.cells * outer_radius_mm(d, g) * (1 - 1e-12)) {
+        if (corners.size() == 4) return {ApertureForm::rectangle, cell};
+        return {ApertureForm::polygon, cell, corners};
+    }
+    return {ApertureForm::polygon, g.clear_aperture_mm, within_circle(corners, pupil.radius_mm)};
 }
 
 bool ApertureShape::holds(double x, double y) const {
@@ -125,9 +128,7 @@ bool ApertureShape::holds(double x, double y) const {
             return x * x + y * y <= half_x * half_x;
         case ApertureForm::rectangle:
             return std::abs(x) <= half_x && std::abs(y) <= half_y;
-        case ApertureForm::hexagon:
-            return std::abs(x) <= half_x && 0.5 * std::abs(x) + 0.5 * std::numbers::sqrt3 * std::abs(y) <= half_x;
-        case ApertureForm::cut:
+        case ApertureForm::polygon:
             break;
     }
     // The position must lie to the left of each edge.
@@ -141,7 +142,7 @@ bool ApertureShape::holds(double x, double y) const {
 double ApertureShape::most(double nu) const {
     const double border_per_area = form == ApertureForm::slit        ? 2 / width_mm[0]
                                    : form == ApertureForm::rectangle ? 2 / width_mm[0] + 2 / width_mm[1]
-                                   : form == ApertureForm::cut       ? border_of(outline) / area_of(outline)
+                                   : form == ApertureForm::polygon   ? border_of(outline) / area_of(outline)
                                                                      : 4 / width_mm[0];
     return std::min(1., border_per_area / (2 * pi * nu));
 }
@@ -156,17 +157,16 @@ double ApertureShape::mean(double nu_x, double nu_y) const {
         }
         case ApertureForm::rectangle:
             return sinc(nu_x * width_mm[0]) * sinc(nu_y * width_mm[1]);
-        case ApertureForm::hexagon:
-        case ApertureForm::cut:
+        case ApertureForm::polygon:
             break;
     }
-    return polygon_mean(corners(0), nu_x, nu_y);
+    return polygon_mean(outline, nu_x, nu_y);
 }
 
 double ApertureShape::extent_mm(std::size_t axis) const {
-    if (form != ApertureForm::hexagon && form != ApertureForm::cut) return width_mm[axis];
+    if (form != ApertureForm::polygon) return width_mm[axis];
     double greatest = 0;
-    for (const auto& corner : corners(0)) greatest = std::max(greatest, corner[axis]);
+    for (const auto& corner : outline) greatest = std::max(greatest, corner[axis]);
     return 2 * greatest;
 }
 
@@ -174,8 +174,7 @@ double ApertureShape::below(std::size_t axis, double place) const {
     const double u = std::clamp(2 * place / width_mm[axis], -1., 1.);
     if (form == ApertureForm::slit || form == ApertureForm::rectangle) return 0.5 * (1 + u);
     if (form == ApertureForm::disk) return 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / pi;  // segment of a circle
-    const Corners all = corners(0);
-    return area_of(cut_off(all, axis, place)) / area_of(all);
+    return area_of(cut_off(outline, axis, place)) / area_of(outline);
 }
 
 ApertureShape::Corners ApertureShape::corners(double length_mm) const {
@@ -187,9 +186,7 @@ ApertureShape::Corners ApertureShape::corners(double length_mm) const {
             return rectangle(half_x, 0.5 * length_mm);
         case ApertureForm::rectangle:
             return rectangle(half_x, 0.5 * width_mm[1]);
-        case ApertureForm::hexagon:
-            return hexagon(half_x);
-        case ApertureForm::cut:
+        case ApertureForm::polygon:
             return outline;
         case ApertureForm::disk:
             break;

@@ -12,12 +12,17 @@ namespace lfdsim {
 /// The clear aperture of a paraxial lens, mm in the array's frame from the lens's axis: a round pupil, a cell, or the
 /// intersection of both (docs/model.md, "Pupil").
 struct ApertureShape {
-    enum class ApertureForm { disk, rectangle, hexagon, slit, cut };  // cut: a cell whose corners lie outside of a round pupil
+    enum class ApertureForm {
+        disk,
+        rectangle,
+        slit,
+        polygon
+    };  // polygon: another cell, or one whose corners a round pupil cuts off
     using Corners = std::vector<std::array<double, 2>>;
 
     ApertureForm form;
-    std::array<double, 2> width_mm;  // D along x' and y'; of a hexagon between opposite sides; a slit is unbounded along y'
-    Corners outline{};               // of a cut cell, counter-clockwise; arcs are short chords that keep the area
+    std::array<double, 2> width_mm;  // D along x' and y'; a slit is unbounded along y'
+    Corners outline{};               // of a polygon, counter-clockwise; arcs are short chords that keep the area
 
     /// Returns the mean of exp(-2 pi i nu.q) over positions q in the aperture, which is real by symmetry, for a wave of nu
     /// periods per mm along x' and y': sinc for a rectangle, 2 J1(x)/x with x = pi D |nu| for a disk, a sum over the edges for
@@ -42,6 +47,9 @@ struct ApertureShape {
     /// `length_mm`.
     Corners corners(double length_mm) const;
 };
+
+/// Returns the corners of a cell of which all lengths are multiplied by `scale`, counter-clockwise from the lower right one.
+ApertureShape::Corners cell_corners(const Lattice<double>&, double scale = 1);
 
 /// Returns the clear aperture of a display's lenses.
 ApertureShape aperture_shape(const Display&, const Geometry&);

@@ -29,7 +29,7 @@ double without_rounding(double mm, double z) { return mm < 1e-9 + 1e-14 * std::a
 
 std::vector<LensField> trace_fields(const Subject& s, const LensTrace& lens) {
     const Lattice<double>& l = s.geometry().lattice;
-    const double edge = l.pitch[0] / 2, corner = l.hexagonal ? edge / std::sqrt(3) : l.pitch[1] / 2;
+    const double edge = l.half_pitch[0], corner = optics::corners_of_cell(l).y[1];
     std::vector<LensField> fields{{"axis", "on the axis", {0, 0}, {}, {}},
                                   {"half", "half way to the edge", {edge / 2, 0}, {}, {}},
                                   {"edge", "edge of the field", {edge, 0}, {}, {}}};

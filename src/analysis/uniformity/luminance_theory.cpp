@@ -124,13 +124,10 @@ Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
     };
     for (const Choice& c : even_choices(count)) {
         const auto axis = optics::axis_in_array(l, optics::Cell<double>{number(c[4], 0), number(c[5], 1)});
-        optics::Vec2<double> in{l.half_pitch[0] * c[0], 0.5 * l.pitch[1] * c[1]};
-        // A position in the box about a hexagon but outside of it is taken relative to the neighbour in whose cell it lies.
-        if (l.hexagonal) {
-            const auto centre = optics::axis_of(l, optics::cell_at(l, in.x, in.y));
-            in = {in.x - centre.x, in.y - centre.y};
-        }
-        const auto aimed = optics::in_display(l, optics::Vec2<double>{axis.x + in.x, axis.y + in.y});
+        const optics::Vec2<double> in{l.half_pitch[0] * c[0], 0.5 * l.pitch[1] * c[1]};
+        // A position p by p_y about the axis but outside of the cell is taken relative to the neighbour in whose cell it lies.
+        const auto centre = optics::axis_of(l, optics::cell_at(l, in.x, in.y));
+        const auto aimed = optics::in_display(l, optics::Vec2<double>{axis.x + (in.x - centre.x), axis.y + (in.y - centre.y)});
         if (!panel.meets({0, 0, eye_mm}, aimed.x, aimed.y)) continue;
         ++all;
         const auto line = lines.look(on_to_principal * aimed.x, on_to_principal * aimed.y, c[2], c[3]);

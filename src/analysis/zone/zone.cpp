@@ -48,12 +48,11 @@ void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const st
         for (const double mm : zone.places) angles.push_back(degrees(mm));
         const ParaxialZone zone_of = paraxial_zone(s, axis);
         const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
-        // Theory's pitch is the distance of rows; a hexagon's image has a corner above its middle, beyond that.
-        const bool corner = axis == 1 && s.display().array.lattice == LatticeKind::hexagon;
-        result.add(
-            name + ".theory_deg",
-            corner ? FigureValue::none("theory is of images cut by rows; those of hexagons have a corner beyond the rows' middle")
-                   : FigureValue(std::vector{0 - theory, theory}));
+        // Theory is of an image p' high; that of a hexagon has a corner above its middle, beyond that.
+        const bool corner = axis == 1 && height_per_pitch(s.geometry()) > 1;
+        result.add(name + ".theory_deg",
+                   corner ? FigureValue::none("theory is of images as high as wide; those of hexagons have corners above and below")
+                          : FigureValue(std::vector{0 - theory, theory}));
         for (const std::size_t t : {0u, 1u}) {
             const Interval& mm = zone.limits[t];
             const Interval deg = mapped(mm, degrees);

@@ -99,23 +99,17 @@ class LensDomain {
         const optics::Vec2<S> axis = optics::axis_of(lattice, lens);
         const G to_x = G(axis.x) - map.x, to_y = lattice.strips ? G(S(0)) : G(axis.y) - map.y;
         optics::LensOutline<G> outline;
-        S x[6], y[6];
-        if (lattice.hexagonal) {
-            const S wide = lattice.half_pitch[0], high = optics::reach_of_cell(lattice);
-            const S at_x[6] = {wide, wide, 0, -wide, -wide, 0},
-                    at_y[6] = {S(-0.5) * high, S(0.5) * high, high, S(0.5) * high, S(-0.5) * high, -high};
-            outline.count = 6;
-            for (int k = 0; k < 6; ++k) x[k] = at_x[k], y[k] = at_y[k];
-        } else {
-            // Between strips light may go on beside them: their cells then meet.
-            const S wide = lattice.strips && !display.lit_between ? display.hole_half : lattice.half_pitch[0],
-                    high = lattice.strips ? S(1) : lattice.half_pitch[1];
-            outline.count = 4;
-            for (int k = 0; k < 4; ++k) x[k] = k < 2 ? wide : -wide, y[k] = k == 1 || k == 2 ? high : -high;
-        }
+        optics::CellCorners<S> cell = optics::corners_of_cell(lattice);
+        if (lattice.strips)
+            for (int k = 0; k < 4; ++k) {
+                // Between strips light may go on beside them: their cells then meet.
+                if (!display.lit_between) cell.x[k] = k < 2 ? display.hole_half : -display.hole_half;
+                cell.y[k] = k == 1 || k == 2 ? S(1) : S(-1);
+            }
+        outline.count = cell.count;
         const G along = lattice.strips ? S(2) * reach_of(map, G(S(1))).y : G(S(1));
         for (int k = 0; k < outline.count; ++k) {
-            const G dx = to_x + G(x[k]), dy = to_y + G(y[k]) * along;
+            const G dx = to_x + G(cell.x[k]), dy = to_y + G(cell.y[k]) * along;
             outline.x[k] = map.u_of(dx, dy);
             outline.y[k] = map.v_of(dx, dy);
         }

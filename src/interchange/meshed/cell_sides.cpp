@@ -1,7 +1,6 @@
 #include "interchange/meshed/cell_sides.h"
 
-#include "geometry/resolve.h"
-
+#include <algorithm>
 #include <cmath>
 
 namespace lfdsim {
@@ -12,23 +11,30 @@ double sheet_half(const Geometry& g) {
     return wide / 2 + panel / 2 + std::hypot(g.lattice.offset[0], g.lattice.offset[1]) + 20 * g.top_z_mm;
 }
 
-std::array<double, 2> cell_half(const Display& display, const Geometry& g) {
-    const double x = g.lattice.pitch[0] / 2;
-    if (g.lattice.strips) return {x, std::ceil(sheet_half(g))};
-    return {x, g.lattice.hexagonal ? outer_radius_mm(display, g) : g.lattice.pitch[1] / 2};
+optics::CellCorners<double> cell_corners(const Geometry& g) {
+    Lattice<double> finite = g.lattice;
+    if (finite.strips) finite.half_pitch[1] = std::ceil(sheet_half(g));
+    return optics::corners_of_cell(finite);
 }
 
-std::array<double, 2> array_half(const Display& display, const Geometry& g) {
-    return {g.array_width_mm / 2, g.lattice.strips ? cell_half(display, g)[1] : g.array_height_mm / 2};
+std::array<double, 2> cell_half(const Geometry& g) {
+    const auto cell = cell_corners(g);
+    return {*std::max_element(cell.x, cell.x + cell.count), *std::max_element(cell.y, cell.y + cell.count)};
 }
 
-std::vector<CellSide> cell_sides(const Display& display, const Geometry& g) {
-    const auto [x, y] = cell_half(display, g);
-    if (!g.lattice.hexagonal) return {{{1, 0}, x, y}, {{0, 1}, y, x}, {{-1, 0}, x, y}, {{0, -1}, y, x}};
-    const double c = 0.5, s = std::sqrt(0.75);
+std::array<double, 2> array_half(const Geometry& g) {
+    return {g.array_width_mm / 2, g.lattice.strips ? cell_half(g)[1] : g.array_height_mm / 2};
+}
+
+std::vector<CellSide> cell_sides(const Geometry& g) {
+    const auto cell = cell_corners(g);
     std::vector<CellSide> all;
-    for (const std::array<double, 2>& out : {std::array{1.0, 0.0}, {c, s}, {-c, s}, {-1.0, 0.0}, {-c, -s}, {c, -s}})
-        all.push_back({out, x, y / 2});
+    for (int k = 0; k < cell.count; ++k) {
+        const int next = (k + 1) % cell.count;
+        const double ex = cell.x[next] - cell.x[k], ey = cell.y[next] - cell.y[k], length = std::hypot(ex, ey);
+        const std::array<double, 2> out{ey / length, 0 - ex / length};
+        all.push_back({out, out[0] * cell.x[k] + out[1] * cell.y[k], length / 2});
+    }
     return all;
 }
 

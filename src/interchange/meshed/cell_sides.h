@@ -1,7 +1,7 @@
 // The borders of a cell of the array, of the array, and of what represents an infinite sheet. Floor 2.
 #pragma once
-#include "display/display.h"
 #include "geometry/geometry.h"
+#include "optics/lattice.h"
 
 #include <array>
 #include <vector>
@@ -14,9 +14,13 @@ double sheet_half(const Geometry&);
 
 /// Returns half the sides of the box about a cell, mm along x' and y'. Strips, which have no end, end with the sheet, at whole
 /// millimetres, which single precision holds.
-std::array<double, 2> cell_half(const Display&, const Geometry&);
+std::array<double, 2> cell_half(const Geometry&);
 /// Returns half the sides of the box about all cells, mm along x' and y'; strips are as long as cell_half() says.
-std::array<double, 2> array_half(const Display&, const Geometry&);
+std::array<double, 2> array_half(const Geometry&);
+
+/// Returns the corners of a cell, counter-clockwise; the right side is that from corner 0 to corner 1. Strips are as long as
+/// cell_half() says.
+optics::CellCorners<double> cell_corners(const Geometry&);
 
 /// A side of a cell.
 struct CellSide {
@@ -24,7 +28,7 @@ struct CellSide {
     double from_axis_mm, half_length_mm;  // its distance from the axis; half its length
 };
 
-/// Returns the sides of a rectangle, or of a hexagon with corners up and down, counter-clockwise from the right one.
-std::vector<CellSide> cell_sides(const Display&, const Geometry&);
+/// Returns the sides of a cell, counter-clockwise from the right one.
+std::vector<CellSide> cell_sides(const Geometry&);
 
 }  // namespace lfdsim

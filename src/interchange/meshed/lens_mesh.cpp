@@ -101,7 +101,7 @@ std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rin
 class Builder {
   public:
     Builder(const Display& display, const Geometry& geometry)
-        : display_(display), geometry_(geometry), sides_(cell_sides(display, geometry)) {}
+        : display_(display), geometry_(geometry), sides_(cell_sides(geometry)) {}
 
     LensMesh build(Grid grid) {
         const auto& surfaces = geometry_.surfaces;
@@ -326,7 +326,7 @@ LensMesh mesh_lens(const Display& display, const Geometry& geometry, std::int64_
                          fmt::format("{} triangles; allowed: {} to {}", triangles, least_lens_triangles, most_lens_triangles));
     Builder builder(display, geometry);
     if (is_strips(display.array)) return builder.build_strip(builder.choose_slats(double(triangles)));
-    const int sides = display.array.aperture == Aperture::circle ? 0 : display.array.lattice == LatticeKind::hexagon ? 6 : 4;
+    const int sides = display.array.aperture == Aperture::circle ? 0 : cell_corners(geometry).count;
     return builder.build(choose_grid(builder, sides, double(triangles)));
 }
 

@@ -118,12 +118,12 @@ void add_ring(Patch& patch, const std::vector<Point>& inner, double z, const std
 }
 
 /// Appends the places in the box about all cells that no cell of staggered rows covers, at one height, in the array's frame.
-void add_between(Patch& patch, const Display& d, const Geometry& g, double z) {
+void add_between(Patch& patch, const Geometry& g, double z) {
     const Lattice<double>& lattice = g.lattice;
     if (!lattice.staggered) return;
-    const auto [x, y] = array_half(d, g);
-    const double p = lattice.pitch[0], up_to = cell_half(d, g)[1];
-    const double beside = lattice.hexagonal ? up_to / 2 : up_to;  // half the height of a cell's left and right side
+    const auto [x, y] = array_half(g);
+    const double p = lattice.pitch[0], up_to = cell_half(g)[1];
+    const double beside = cell_corners(g).y[1];  // half the height of a cell's left and right side
     const auto columns = std::int64_t(lattice.count[0]), rows = std::int64_t(lattice.count[1]);
     for (std::int64_t j = 0; j < rows; ++j) {
         // Half a cell at the row's end: of even rows, which are shifted to the left, on the right
@@ -132,9 +132,9 @@ void add_between(Patch& patch, const Display& d, const Geometry& g, double z) {
             c{sign * x, row + sign * up_to, z}, e{sign * (x - p / 2), row + sign * beside, z};
         add_triangle(patch, a, b, c, up);
         add_triangle(patch, a, c, e, up);
-        // Between the hexagons' corners, at the array's lower and upper border
+        // Between the upper and between the lower corners of hexagons, at the array's border
         for (const int end : {-1, 1}) {
-            if (!lattice.hexagonal || j != (end < 0 ? 0 : rows - 1)) continue;
+            if (beside == up_to || j != (end < 0 ? 0 : rows - 1)) continue;
             for (std::int64_t i = -1; i < columns; ++i) {
                 const double axis = (double(i) - 0.5 * double(columns - 1)) * p - sign * p / 4;
                 const Point left{std::max(axis, -x), end * y, z}, right{std::min(axis + p, x), end * y, z},
@@ -168,7 +168,7 @@ void add_face(Patch& patch, double z, double half) {
 class ArrayBuilder {
   public:
     ArrayBuilder(const Display& d, const Geometry& g, std::int64_t triangles)
-        : display_(d), geometry_(g), mesh_(mesh_lens(d, g, triangles)), sides_(cell_sides(d, g)) {}
+        : display_(d), geometry_(g), mesh_(mesh_lens(d, g, triangles)), sides_(cell_sides(g)) {}
 
     MeshedArray build() {
         const Surround surround = display_.array.surround;
@@ -232,8 +232,8 @@ class ArrayBuilder {
         add_ring(flat, rims_[k], local(rim_z(s)), sides_, 0);
         take(made_.cell, std::move(flat));
         Patch beside{fmt::format("beside-{}", k + 1), false, s.index_above, s.index_below, {}, {}, {}};
-        add_frame(beside, array_half(display_, geometry_), local(rim_z(s)), sheet_half(geometry_));
-        add_between(beside, display_, geometry_, local(rim_z(s)));
+        add_frame(beside, array_half(geometry_), local(rim_z(s)), sheet_half(geometry_));
+        add_between(beside, geometry_, local(rim_z(s)));
         take(made_.sheet, std::move(beside));
     }
 
@@ -250,8 +250,8 @@ class ArrayBuilder {
             } else if (display_.array.surround == Surround::clear) {
                 add_ring(face, rims_.front(), local(z), sides_, 0);
                 Patch beside{face.name + "-beside", false, 1, above, {}, {}, {}, false};
-                add_frame(beside, array_half(display_, geometry_), local(z), sheet_half(geometry_));
-                add_between(beside, display_, geometry_, local(z));
+                add_frame(beside, array_half(geometry_), local(z), sheet_half(geometry_));
+                add_between(beside, geometry_, local(z));
                 take(made_.cell, std::move(face));
                 take(made_.sheet, std::move(beside));
             }
@@ -268,7 +268,7 @@ class ArrayBuilder {
     /// Returns the border of a stop's hole or slit.
     std::vector<Point> hole(double radius) const {
         if (!geometry_.lattice.strips) return circle(radius, 512);
-        const double y = cell_half(display_, geometry_)[1];
+        const double y = cell_half(geometry_)[1];
         return {{-radius, -y, 0}, {radius, -y, 0}, {radius, y, 0}, {-radius, y, 0}};
     }
 
@@ -286,8 +286,8 @@ class ArrayBuilder {
                 add_ring(black, of_surface ? rims_[std::size_t(same - surfaces.begin())] : hole(ring.radius_mm), z, sides_,
                          solid_overlap_mm);
                 if (all_beside || &ring == &rings.front() || &ring == &rings.back()) {
-                    add_frame(beside, array_half(display_, geometry_), z, 100 * sheet_half(geometry_));
-                    add_between(beside, display_, geometry_, z);
+                    add_frame(beside, array_half(geometry_), z, 100 * sheet_half(geometry_));
+                    add_between(beside, geometry_, z);
                 }
             }
         };

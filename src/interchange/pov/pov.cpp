@@ -39,7 +39,7 @@ class PovWriter {
         : d_(d),
           g_(g),
           lattice_(g.lattice),
-          cell_(d, g),
+          cell_(g),
           glued_(g.glued ? &g.surfaces.front() : nullptr),
           gap_mm_(pov_gap_pitches * d.array.pitch_mm.least()),
           units_per_mm_(pov_units_per_mm(d, g)),
@@ -145,7 +145,7 @@ class PovWriter {
     }
     /// Returns the flat part outside the array, without the closing brace.
     std::string beside(double z, const std::string& matter) const {
-        const auto [x, y] = array_half(d_, g_);
+        const auto [x, y] = array_half(g_);
         return fmt::format("disc {{ {}, z, {} clipped_by {{ box {{ {}, {} inverse }} }} {}", vector(0, 0, z),
                            text(100 * sheet_half(g_)), vector(-x, -y, z - 1), vector(x, y, z + 1), matter);
     }
@@ -153,9 +153,10 @@ class PovWriter {
     /// Returns the places in the box about all cells that no cell of staggered rows covers: cells without lenses, cut at the box.
     std::string between(const std::string& flats) const {
         if (!lattice_.staggered || flats.empty()) return "";
-        const auto [x, y] = array_half(d_, g_);
+        const auto [x, y] = array_half(g_);
         const auto right = cell_.last(0), top = cell_.last(1);
-        const int more = lattice_.hexagonal ? 1 : 0;  // rows below and above, whose corners reach into the box
+        const int more =
+            cell_.half()[1] > lattice_.half_pitch[1] ? 1 : 0;  // rows below and above, whose corners reach into the box
         return fmt::format(
             "union {{\n  #for (J, {}, {}) #for (I, -1, {}, (J < 0 | J > {} ? 1 : {}))\n    union {{\n{}    translate <{}, {}, 0> "
             "}}\n"
@@ -330,7 +331,7 @@ class PovWriter {
     /// against few.
     std::string sheet() const {
         const double index = g_.surfaces.front().index_above;
-        const auto [x, y] = array_half(d_, g_);
+        const auto [x, y] = array_half(g_);
         std::string walls, all, flats;
         if (d_.array.aperture == Aperture::cell) {
             int number = 0;

@@ -13,10 +13,11 @@ constexpr double flat_overlap_mm = 1e-6;  // of flat parts of neighbouring cells
 
 }  // namespace
 
-PovCell::PovCell(const Display& d, const Geometry& g)
-    : lattice_(g.lattice), half_(cell_half(d, g)), outer_radius_(std::hypot(half_[0], half_[1])) {
-    if (lattice_.hexagonal) outer_radius_ = half_[1];
-}
+PovCell::PovCell(const Geometry& g)
+    : lattice_(g.lattice),
+      half_(cell_half(g)),
+      corners_(cell_corners(g)),
+      outer_radius_(std::hypot(corners_.x[0], corners_.y[0])) {}
 
 double PovCell::widest_half() const { return std::max(half_[0], half_[1]); }
 
@@ -26,7 +27,7 @@ std::string PovCell::box(double low, double high, double wider) const {
 }
 
 std::string PovCell::prism(double low, double high, double wider) const {
-    if (!lattice_.hexagonal) return box(low, high, wider);
+    if (corners_.count == 4) return box(low, high, wider);
     // A hexagon is what three strips, turned by 60 degrees against each other, have in common.
     const double x = half_[0] + wider, y = 2 * half_[1];
     std::string strips;
@@ -56,7 +57,8 @@ std::vector<PovCell::PrismSide> PovCell::sides() const {
     const double px = lattice_.pitch[0], py = lattice_.pitch[1];
     const std::string right = fmt::format("I = {}", last(0)), left = "I = 0", top = fmt::format("J = {}", last(1)),
                       bottom = "J = 0";
-    std::vector<PrismSide> all{{{x, -y}, {x, y}, {px, 0}, right}, {{-x, -y}, {-x, y}, {-px, 0}, left}};
+    const double side_y = corners_.y[1];  // where the sides to left and right end: a hexagon's corners are up and down
+    std::vector<PrismSide> all{{{x, -side_y}, {x, side_y}, {px, 0}, right}, {{-x, -side_y}, {-x, side_y}, {-px, 0}, left}};
     if (strips()) return all;
     if (!lattice_.staggered) {
         all.push_back({{-x, y}, {x, y}, {0, py}, top});
@@ -65,12 +67,6 @@ std::vector<PovCell::PrismSide> PovCell::sides() const {
     }
     // Odd rows are shifted to the right: their right neighbours above and below have the next number, of even rows the same.
     const std::string no_right = fmt::format("I + mod(J, 2) > {}", last(0)), no_left = "I + mod(J, 2) < 1";
-    double side_y = y;  // where the sides to left and right end: a hexagon's corners are up and down
-    if (lattice_.hexagonal) {
-        side_y = y / 2;
-        all[0] = {{x, -side_y}, {x, side_y}, {px, 0}, right};
-        all[1] = {{-x, -side_y}, {-x, side_y}, {-px, 0}, left};
-    }
     for (const int up : {1, -1})
         for (const int out : {1, -1})
             all.push_back({{out * x, up * side_y},

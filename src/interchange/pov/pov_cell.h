@@ -3,8 +3,8 @@
 // Shapes are in the array's frame, x and y from the lens's axis, z from the panel, mm. Strips, which have no end, are cell_half()
 // long to both sides.
 #pragma once
-#include "display/display.h"
 #include "geometry/geometry.h"
+#include "optics/lattice.h"
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace lfdsim::peers {
 /// The cell of an array's lenses. Functions that return strings return shapes of POV-Ray.
 class PovCell {
   public:
-    PovCell(const Display&, const Geometry&);
+    explicit PovCell(const Geometry&);
 
     /// Returns half the sides of the box about the cell.
     std::array<double, 2> half() const { return half_; }
@@ -53,6 +53,7 @@ class PovCell {
   private:
     Lattice<double> lattice_;
     std::array<double, 2> half_;
+    optics::CellCorners<double> corners_;
     double outer_radius_;
 };
 

@@ -22,7 +22,7 @@ bool moved(const LensError& e) { return e.aside_mm[0] != 0 || e.aside_mm[1] != 0
 
 }  // namespace
 
-PovLenses::PovLenses(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(d, g), far_(100 * sheet_half(g)) {
+PovLenses::PovLenses(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(g), far_(100 * sheet_half(g)) {
     low_ = g.base_z_mm - 1, high_ = g.top_z_mm + 1;
     // A tilted column reaches as far aside as its width, its displacement and the tilt at its lowest and highest points make it.
     const std::vector<LensError> errors = lenses_as_built(d, g.lattice);

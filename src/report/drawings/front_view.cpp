@@ -15,10 +15,9 @@ namespace {
 using Corners = ApertureShape::Corners;  // mm from a lens's axis, in the array's frame
 
 /// Returns the corners of a cell; of strips over the length that is drawn.
-Corners cell_of(const Lattice<double>& l, double length_mm) {
-    using ApertureForm = ApertureShape::ApertureForm;
-    const ApertureForm form = l.hexagonal ? ApertureForm::hexagon : l.strips ? ApertureForm::slit : ApertureForm::rectangle;
-    return ApertureShape{form, {l.pitch[0], l.pitch[1]}}.corners(length_mm);
+Corners cell_of(Lattice<double> l, double length_mm) {
+    if (l.strips) l.half_pitch[1] = 0.5 * length_mm;
+    return cell_corners(l);
 }
 
 }  // namespace
