@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/constants.h"
 #include "files/lenses/drawn_lens.h"
 
 namespace lfdsim {
@@ -89,7 +90,7 @@ TEST(Optiland, ReadsALens) {
     EXPECT_EQ(lens.surfaces[4].curvature_per_mm, 0);
     EXPECT_EQ(lens.surfaces[2].place, "lens.json: surface_group.surfaces[2]");
     EXPECT_EQ(lens.beam.entrance_pupil_mm, 20);
-    EXPECT_EQ(lens.beam.field_deg, 3.5);
+    EXPECT_DOUBLE_EQ(*lens.beam.field_slope, std::tan(3.5 * degree));
     EXPECT_NEAR(*lens.beam.wavelength_nm, 550, 1e-9);
     EXPECT_THAT(lens.notes, testing::IsEmpty());
 }
@@ -109,6 +110,12 @@ TEST(Optiland, ReadsAspheresAndApertures) {
     json["aperture"] = {{"type", "float_by_stop_size"}, {"value", 9.0}};
     s["aperture"] = nullptr;
     EXPECT_EQ(parse_optiland(saved(json), "x").surfaces[1].semi_aperture_mm, 4.5);
+}
+
+TEST(Optiland, ReadsAFieldOfTwoAngles) {
+    Json json = doublet();
+    json["fields"]["fields"][0] = {{"x", -3}, {"y", 2}};
+    EXPECT_DOUBLE_EQ(*parse_optiland(saved(json), "x").beam.field_slope, std::hypot(std::tan(3 * degree), std::tan(2 * degree)));
 }
 
 TEST(Optiland, NamesWhatCannotBeImported) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/constants.h"
 #include "files/lenses/drawn_lens.h"
 #include "published_lenses.h"
 
@@ -46,7 +47,7 @@ TEST(Zmx, ReadsALens) {
     for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(lens.surfaces[i].is_stop, i == 5);
     EXPECT_EQ(lens.surfaces[3].place, "lens.zmx:19: surface 3");
     EXPECT_EQ(lens.beam.f_number, 4.5);
-    EXPECT_EQ(lens.beam.field_deg, 20.5);
+    EXPECT_DOUBLE_EQ(*lens.beam.field_slope, std::tan(20.5 * degree));
     EXPECT_NEAR(*lens.beam.wavelength_nm, 587.5618, 1e-9);
     EXPECT_THAT(lens.notes, testing::IsEmpty());
 }
@@ -103,6 +104,16 @@ TEST(Zmx, FoldsATermInR2WhereItCan) {
     EXPECT_EQ(s.conic, -1);
     EXPECT_THAT(zmx_refused(zmx_with(tessar, "  TYPE STANDARD\n", "  TYPE EVENASPH\n  PARM 1 0.01\n")),
                 HasSubstr("lens.zmx:11: surface 1 has PARM 1 = 0.01, a term in r^2"));
+}
+
+// A field point of two angles has the slope of both; of the points in the lines only as many count as FTYP says.
+TEST(Zmx, ReadsFieldsOfTwoAnglesThatAreInUse) {
+    const auto slope = [](const std::string& lines) {
+        return *parse_zmx(zmx_with(tessar, "FTYP 0 0 3 1 0 0 0\nYFLN 0 10 20.5\n", lines), "x").beam.field_slope;
+    };
+    EXPECT_DOUBLE_EQ(slope("FTYP 0\nXFLN 0 12\nYFLN 0 -9 14\n"), std::hypot(std::tan(12 * degree), std::tan(9 * degree)));
+    EXPECT_DOUBLE_EQ(slope("YFLN 0 14 20\nXFLN 5 0 0\nFTYP 0 0 2 1 0 0 0\n"), std::tan(14 * degree));
+    EXPECT_EQ(slope("FTYP 0 0 1 3 0 0 0\nYFLN 0 14 0 0\n"), 0);
 }
 
 TEST(Zmx, NamesWhatCannotBeImported) {

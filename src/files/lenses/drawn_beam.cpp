@@ -30,7 +30,7 @@ ParaxialRay paraxial_ray(const DrawnLens& lens, const std::vector<double>& indic
 bool fill_apertures(DrawnLens& lens, const std::vector<double>& indices) {
     const auto first = lens.surfaces.begin() + 1, end = lens.surfaces.end() - 1;
     const auto stop = std::find_if(first, end, [](const DrawnSurface& s) { return s.is_stop; });
-    if (stop == end || !lens.beam.field_deg || !std::isinf(lens.surfaces.front().distance_mm)) return false;
+    if (stop == end || !lens.beam.field_slope || !std::isinf(lens.surfaces.front().distance_mm)) return false;
     // All paraxial rays are sums of these two: one parallel to the axis at the height 1, one through the first vertex of slope 1.
     const ParaxialRay high = paraxial_ray(lens, indices, 1, 0), steep = paraxial_ray(lens, indices, 0, 1);
     const auto at_stop = std::size_t(stop - first);
@@ -44,7 +44,7 @@ bool fill_apertures(DrawnLens& lens, const std::vector<double>& indices) {
     else if (lens.beam.f_number)
         pupil = 1 / std::abs(high.slope) / (2 * *lens.beam.f_number);
     // The chief ray comes from the field's edge and meets the stop on the axis: its height at the first surface is `chief`.
-    const double field = std::tan(*lens.beam.field_deg * std::acos(-1.0) / 180);
+    const double field = *lens.beam.field_slope;
     const double chief = -field * steep.height_mm[at_stop] / high.height_mm[at_stop];
 
     std::vector<double> needed;

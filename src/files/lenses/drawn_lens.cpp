@@ -1,5 +1,9 @@
 #include "files/lenses/drawn_lens.h"
 
+#include <cmath>
+
+#include "base/constants.h"
+
 namespace lfdsim {
 
 void scale(DrawnLens& lens, double factor) {
@@ -15,6 +19,8 @@ void scale(DrawnLens& lens, double factor) {
     }
     if (lens.beam.entrance_pupil_mm) *lens.beam.entrance_pupil_mm *= factor;
 }
+
+double slope_of_field(double x_deg, double y_deg) { return std::hypot(std::tan(x_deg * degree), std::tan(y_deg * degree)); }
 
 bool fold_r2(DrawnSurface& s, double a2) {
     if (a2 == 0) return true;

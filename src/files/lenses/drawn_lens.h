@@ -36,7 +36,7 @@ struct DrawnBeam {
     std::optional<double> wavelength_nm;      // the main one
     std::optional<double> entrance_pupil_mm;  // diameter of the entrance pupil
     std::optional<double> f_number;           // for an object at infinity
-    std::optional<double> field_deg;          // from the axis to the edge of the field
+    std::optional<double> field_slope;        // of the chief ray from the edge of the field, before it enters the lens
 };
 
 /// A lens of a file, in mm whatever the unit of the file.
@@ -53,6 +53,9 @@ struct DrawnLens {
 DrawnLens parse_zmx(std::string_view bytes, std::string_view name);
 DrawnLens parse_optiland(std::string_view text, std::string_view name);
 DrawnLens parse_rayoptics(std::string_view text, std::string_view name);
+
+/// Returns the slope of a direction that a field point's two angles, degrees, define: its slopes in x and y are their tangents.
+double slope_of_field(double x_deg, double y_deg);
 
 /// Multiplies all lengths of the lens by a factor.
 void scale(DrawnLens&, double factor);

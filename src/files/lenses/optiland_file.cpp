@@ -115,8 +115,9 @@ class OptilandReader : LensJsonReader {
         const LensJson& kind = member(member(fields, "field_definition"), "field_type");
         if (kind == "AngleField" || member(fields, "field_type") == "angle")
             for (const LensJson& field : member(fields, "fields"))
-                lens.beam.field_deg = std::max({lens.beam.field_deg.value_or(0), std::abs(number(member(field, "x"), "fields")),
-                                                std::abs(number(member(field, "y"), "fields"))});
+                lens.beam.field_slope =
+                    std::max(lens.beam.field_slope.value_or(0),
+                             slope_of_field(number(member(field, "x"), "fields"), number(member(field, "y"), "fields")));
         for (const LensJson& wave : member(member(json, "wavelengths"), "wavelengths"))
             if (is_true(member(wave, "is_primary")) && member(wave, "unit") == "um")
                 lens.beam.wavelength_nm = number(member(wave, "value"), "wavelengths") * 1000;

@@ -214,9 +214,14 @@ class ZmxReader {
     }
     void read_pupil() { lens.beam.entrance_pupil_mm = number(1); }
     void read_f_number() { lens.beam.f_number = number(1); }
-    void read_field_type() { field_is_angle = words.size() > 1 && words[1] == "0"; }
+    // FTYP is "kind telecentric fields wavelengths ...", where XFLN and YFLN may have more values than there are fields.
+    void read_field_type() {
+        field_is_angle = words.size() > 1 && words[1] == "0";
+        if (const double count = has_number(3) ? number(3) : 0; count >= 1) field_count = count;
+    }
     void read_fields() {
-        for (std::size_t i = 1; i < words.size(); ++i) field = std::max(field, std::abs(number(i)));
+        fields.resize(std::max(fields.size(), words.size() - 1));
+        for (std::size_t i = 1; i < words.size(); ++i) fields[i - 1][words[0] == "XFLN" ? 0 : 1] = number(i);
     }
     void read_wavelength() {
         const double i = number(1), wavelength_um = number(2);
@@ -252,8 +257,8 @@ class ZmxReader {
         {"ENPD", &ZmxReader::read_pupil, Times::once},
         {"FNUM", &ZmxReader::read_f_number, Times::once},
         {"FTYP", &ZmxReader::read_field_type, Times::once},
-        {"XFLN", &ZmxReader::read_fields, Times::any},
-        {"YFLN", &ZmxReader::read_fields, Times::any},
+        {"XFLN", &ZmxReader::read_fields, Times::once},
+        {"YFLN", &ZmxReader::read_fields, Times::once},
         {"WAVM", &ZmxReader::read_wavelength, Times::once_each},
         {"PWAV", &ZmxReader::read_primary, Times::once},
         {"NAME", &ZmxReader::read_title, Times::any},
@@ -285,7 +290,11 @@ class ZmxReader {
         if (!unread.empty())
             lens.notes.push_back(fmt::format("Words that are unknown and were not read: {}.", fmt::join(unread, ", ")));
         // The beam, and the surfaces in mm.
-        if (field_is_angle) lens.beam.field_deg = field;
+        if (field_is_angle) {
+            lens.beam.field_slope = 0;
+            for (std::size_t i = 0; i < fields.size() && double(i) < field_count; ++i)
+                lens.beam.field_slope = std::max(*lens.beam.field_slope, slope_of_field(fields[i][0], fields[i][1]));
+        }
         if (wavelengths_um[primary] > 0) lens.beam.wavelength_nm = wavelengths_um[primary] * 1000;
         for (ZmxSurface& s : surfaces) lens.surfaces.push_back(std::move(s.drawn));
         if (unit_mm != 0 && unit_mm != 1) scale(lens, unit_mm);
@@ -318,9 +327,10 @@ class ZmxReader {
     std::array<double, 24> wavelengths_um{};
     std::size_t primary = 0;
     bool field_is_angle = false;
-    double field = 0;                 // the largest, in degrees if it is an angle
-    std::vector<std::size_t> coated;  // numbers of surfaces with coatings
-    std::vector<std::string> unread;  // unknown keywords, with their lines
+    double field_count = std::numeric_limits<double>::infinity();
+    std::vector<std::array<double, 2>> fields;  // x and y of each, in degrees if they are angles
+    std::vector<std::size_t> coated;            // numbers of surfaces with coatings
+    std::vector<std::string> unread;            // unknown keywords, with their lines
     DrawnLens lens;
     std::vector<Problem> problems;
 };
