@@ -15,6 +15,7 @@
 namespace lfdsim {
 
 double to_nanometre(double mm) { return std::round(mm * 1e6) / 1e6; }
+double to_picometre(double mm) { return std::round(mm * 1e9) / 1e9; }
 
 double rounded(double x) {
     const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) - 2);

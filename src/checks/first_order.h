@@ -61,6 +61,8 @@ inline constexpr int fewest_views = 4, fewest_lenses = 10;
 
 /// Returns a length, mm, rounded to a nanometre: finer than lenses are made, and fine enough for a distant central depth plane.
 double to_nanometre(double mm);
+/// Returns a length, mm, rounded to a picometre: of lenses that focus on the panel, so that theory takes g for f.
+double to_picometre(double mm);
 /// Returns a number rounded to three digits, for values of which more are not needed.
 double rounded(double);
 

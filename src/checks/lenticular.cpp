@@ -15,7 +15,7 @@
 namespace lfdsim {
 
 std::optional<CylinderSheet> cylinder_sheet(double pitch_mm, double gap_mm, double index) {
-    const double half = pitch_mm / 2, R = to_nanometre(gap_mm * (index - 1));
+    const double half = pitch_mm / 2, R = to_picometre(gap_mm * (index - 1));
     if (!(R >= half)) return {};
     // The caps' sag is R - sqrt(R^2 - (p/2)^2), and sag, wall h and layer together are n g. The wall is low, as the tracer
     // requires it (h <= 2 sqrt(R^2 - r^2)), and the rest of the sheet is a layer.
@@ -24,7 +24,7 @@ std::optional<CylinderSheet> cylinder_sheet(double pitch_mm, double gap_mm, doub
     sheet.lens.sphere_radius_mm = R;
     sheet.lens.cylinder_height_mm = to_nanometre(std::min(half / 2, wall));
     sheet.lens.index = index;
-    sheet.layer_mm = to_nanometre(index * gap_mm - sag - sheet.lens.cylinder_height_mm);
+    sheet.layer_mm = to_picometre(index * gap_mm - sag - sheet.lens.cylinder_height_mm);
     return sheet;
 }
 

@@ -37,7 +37,9 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     AxisTheory t{};
     t.fov_deg = 2 * std::atan(p / (2 * gap)) / degree;
     t.views = is_strips(d.array) ? p / (a * g.lattice.cos_turn) : p / a;
-    t.view_step_deg = t.fov_deg / t.views;
+    // Views of strips lie side by side along a row, which crosses a strip over p / cos(slant).
+    const double in_row = is_strips(d.array) ? p / g.lattice.cos_turn : p;
+    t.view_step_deg = 2 * std::atan(in_row / (2 * gap)) / degree / t.views;
 
     // To an eye at X = E tan(theta) the lens at x shows the panel at g (x - X)/E from its axis. The centre of its elemental image
     // is x g/M from the axis, with M the distance from H' that the images are made for, and the image is p' = p (1 + g/M) wide. So
@@ -70,7 +72,12 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
 Theory theory(const Display& d, const Geometry& g) {
     const double a = d.panel.pixel_pitch_mm, D = widest_aperture_mm(g), gap = g.gap_mm, f = g.focal_length_mm;
     const bool pinhole = d.lens.type() == LensType::pinhole;
-    const double inverse_L = pinhole ? nan : gap == f ? 0 : 1 / f - 1 / gap, L = inverse_L == 0 ? infinity : 1 / inverse_L;
+    // Lenses that focus on the panel are written to a picometre (docs/model.md, "First designs").
+    constexpr double rounded_mm = 2e-9;
+    const double inverse_L = pinhole                          ? nan
+                             : std::abs(gap - f) < rounded_mm ? 0
+                                                              : 1 / f - 1 / gap,
+                 L = inverse_L == 0 ? infinity : 1 / inverse_L;
 
     Theory t{};
     t.fov_horizontal_deg = is_strips(d.array) ? 2 * std::atan(g.lattice.pitch[0] / (2 * gap * g.lattice.cos_turn)) / degree : nan;

@@ -24,6 +24,8 @@ namespace {
 constexpr int lines_of_lens = 1024, lines_of_screen = 4096, lines_of_waves = 16384, rays_of_lens = 32, fan_of_lens = 65;
 constexpr int fewest = 16;               // lines that are needed for a figure
 constexpr std::uint32_t most_sets = 16;  // of as many lines each, if few get through
+constexpr std::uint32_t most_sets_of_waves = 32;
+constexpr double wave_error = 0.01;  // standard error of a colour wave's visible contrast; of stronger waves a tenth of it
 
 /// Returns an eye at the camera's distance, display frame; nothing if that is inside the display.
 std::optional<Vec3d> eye_before(const Display& d, const Geometry& g, double x = 0) {
@@ -135,8 +137,6 @@ std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm
                     where_sharp(fan, pixel_slope)};
 }
 
-namespace {}  // namespace
-
 std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     const bool near = camera_distance_mm(d) < nearest_sight_mm;  // an eye right before the lenses sees through all of its pupil
     const std::optional<Vec3d> eye = eye_before(d, g, near ? 0 : -0.5 * usual_eye_separation_mm);
@@ -144,11 +144,12 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     // Red, and blue, less the luminance
     constexpr ChannelWeights mixtures[] = {{1 - luminance_weights[0], -luminance_weights[1], -luminance_weights[2]},
                                            {-luminance_weights[0], -luminance_weights[1], 1 - luminance_weights[2]}};
-    // A wave by theory, and the sum of the traced light times exp(-2 pi i f.r).
+    // A wave by theory, the sum of the traced light times exp(-2 pi i f.r), and the sum of its terms' squared moduli.
     struct BeatSum {
         Beat beat;
         WhitePanel white;
         std::complex<double> sum = 0;
+        double squares = 0;
     };
     std::vector<BeatSum> waves;
     for (const ChannelWeights& weights : mixtures)
@@ -162,7 +163,7 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     const EyeRays rays(d, g);
     double light = 0;
     std::uint64_t line = 0;
-    for (const Choice& c : even_choices(lines_of_waves)) {
+    const auto add_line = [&](const Choice& c) {
         const Vec3d at = rays.aim(*eye, c);
         // The pupil's points are uniform over its disk.
         const double radius = 0.5 * pupil * std::sqrt(counted_random(line++)), turn = 2 * pi * counted_random(line++);
@@ -170,29 +171,42 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
         const Vec3d in_pupil{x + radius * std::cos(turn), radius * std::sin(turn), (*eye)[2]},
             focus{x + (at[0] - x) * to_focus, at[1] * to_focus, (*eye)[2] - focused};
         const Sight s = pupil > 0 ? rays.look_through(in_pupil, focus, c[2], c[3]) : rays.look(*eye, c);
-        if (!(s.light > 0)) continue;
+        if (!(s.light > 0)) return;
         light += s.light;
         const double column = s.x / d.panel.pixel_pitch_mm + 0.5 * double(d.panel.pixels[0]),
                      row = 0.5 * double(d.panel.pixels[1]) - s.y / d.panel.pixel_pitch_mm;
-        for (BeatSum& w : waves)
-            w.sum += s.light * w.white.at(column, row) *
-                     std::polar(1., -2 * pi * (w.beat.frequency[0] * at[0] + w.beat.frequency[1] * at[1]));
-    }
-    if (!(light > 0)) return {};
+        for (BeatSum& w : waves) {
+            const double term = s.light * w.white.at(column, row);
+            w.sum += term * std::polar(1., -2 * pi * (w.beat.frequency[0] * at[0] + w.beat.frequency[1] * at[1]));
+            w.squares += term * term;
+        }
+    };
     std::optional<ColourWave> strongest;
-    for (const BeatSum& w : waves) {
-        // The contrast of a wave is twice the amplitude of its Fourier component, over the mean. Where the period is more than
-        // twice the screen's width, the screen has one tint, whose contrast is the mean itself.
-        const bool uniform = period_mm(w.beat.frequency) > 2 * std::min(g.panel_width_mm, g.array_width_mm);
-        const double fine = mm_per_degree(away) / period_mm(w.beat.frequency),
-                     contrast = (uniform ? 1 : 2) * std::abs(w.sum) / light;
-        const ColourWave wave{uniform ? infinity : period_mm(w.beat.frequency),
-                              direction_deg(w.beat.frequency),
-                              fine,
-                              contrast,
-                              contrast * eye_for_colour.filter(fine),
-                              {w.beat.turned_per_rad[0] * degree, w.beat.turned_per_rad[1] * degree}};
-        if (!strongest || wave.visible > strongest->visible) strongest = wave;
+    bool certain = false;
+    for (std::uint32_t set = 0; set < most_sets_of_waves && !certain; ++set) {
+        for (const Choice& c : even_choices(lines_of_waves, set)) add_line(c);
+        if (!(light > 0)) continue;
+        strongest.reset();
+        certain = true;
+        for (const BeatSum& w : waves) {
+            // The contrast of a wave is twice the amplitude of its Fourier component, over the mean. Where the period is more than
+            // twice the screen's width, the screen has one tint, whose contrast is the mean itself. The square of a sum of
+            // independent terms exceeds that of their mean's sum by the sum of their squares, and the modulus has half of that as
+            // its variance.
+            const bool uniform = period_mm(w.beat.frequency) > 2 * std::min(g.panel_width_mm, g.array_width_mm);
+            const double fine = mm_per_degree(away) / period_mm(w.beat.frequency), per_sum = (uniform ? 1 : 2) / light,
+                         contrast = per_sum * std::sqrt(std::max(std::norm(w.sum) - w.squares, 0.)),
+                         visible = contrast * eye_for_colour.filter(fine),
+                         error = per_sum * std::sqrt(0.5 * w.squares) * eye_for_colour.filter(fine);
+            certain = certain && error <= std::max(wave_error, 0.1 * visible);
+            const ColourWave wave{uniform ? infinity : period_mm(w.beat.frequency),
+                                  direction_deg(w.beat.frequency),
+                                  fine,
+                                  contrast,
+                                  visible,
+                                  {w.beat.turned_per_rad[0] * degree, w.beat.turned_per_rad[1] * degree}};
+            if (!strongest || wave.visible > strongest->visible) strongest = wave;
+        }
     }
     return strongest;
 }

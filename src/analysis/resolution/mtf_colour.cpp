@@ -12,10 +12,12 @@
 namespace lfdsim {
 namespace {
 
-/// Returns the mean distance of what a channel shows from what green shows, mm.
+/// Returns the mean distance of what a channel shows from what green shows, mm. The error includes the effect of the phases in
+/// which this screen's pixels happen to meet its lenses.
 Estimate from_green(const MtfCurves& m, std::size_t channel) {
-    const Estimate &here = m.channels[channel].middle_mm, &green = m.channels[green_channel].middle_mm;
-    return {here.value - green.value, std::hypot(here.error, green.error)};
+    const ChannelMtf &here = m.channels[channel], &green = m.channels[green_channel];
+    const double off = here.middle_mm.value - green.middle_mm.value, anywhere = here.middle_anywhere_mm - green.middle_anywhere_mm;
+    return {off, std::hypot(here.middle_mm.error, green.middle_mm.error, off - anywhere)};
 }
 
 double theory_from_green(const MtfCurves& m, std::size_t channel) {

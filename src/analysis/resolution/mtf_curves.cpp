@@ -136,7 +136,9 @@ MtfCurves mtf_curves(const Subject& s, const SeenInColours& seen, double depth_m
         const LineSpread of_channel = seen.channels[c].spread(plane.z_mm, direction, PixelPositions::as_described);
         channel.modulation = of_channel.mtf(step, steps + 1);
         channel.middle_mm = of_channel.middle_mm();
-        channel.pixels_anywhere = seen.channels[c].spread(plane.z_mm, direction, PixelPositions::anywhere).mtf(step, steps + 1).all;
+        const LineSpread anywhere = seen.channels[c].spread(plane.z_mm, direction, PixelPositions::anywhere);
+        channel.pixels_anywhere = anywhere.mtf(step, steps + 1).all;
+        channel.middle_anywhere_mm = anywhere.middle_mm().value;
     }
     return m;
 }

@@ -16,7 +16,9 @@ struct ChannelMtf {
     Modulation modulation;                // by lines of sight; empty if it is missing
     std::vector<double> pixels_anywhere;  // as MtfCurves::pixels_anywhere
     std::vector<double> theory;
-    Estimate middle_mm;  // mean distance from the point looked at to the one shown; its difference between colours is their fringe
+    // Mean distance from the point looked at to the one shown, whose difference between colours is their fringe
+    Estimate middle_mm;
+    double middle_anywhere_mm;  // with the panel's pixels shifted by any part of one
     double theory_middle_mm;
 };
 

@@ -14,16 +14,18 @@ Bundle bundle(const LensTrace& lens, Point panel, int across) {
     const auto box = lens.directions(panel);
     if (!box) return result;
     const double dx = (box->x1 - box->x0) / across, dy = (box->y1 - box->y0) / across;
-    const auto through = [&](int i, double y) { return lens.ray(panel, {box->x0 + (i + 0.5) * dx, y}); };
     for (int j = 0; j < across; ++j)
         for (int i = 0; i < across; ++i)
-            if (const auto ray = through(i, box->y0 + (j + 0.5) * dy)) result.rays.push_back(*ray);
+            if (const auto ray = lens.ray(panel, {box->x0 + (i + 0.5) * dx, box->y0 + (j + 0.5) * dy})) result.rays.push_back(*ray);
     result.light = double(result.rays.size()) * dx * dy;
-    // The light is that of all directions; rays of strips are those of the plane across them.
+    // The light is that of all directions; rays of strips are those of the plane across them, which are as many: steep light along
+    // the strips may make the box many times wider than what gets through in that plane.
     if (!lens.of_strips()) return result;
     result.rays.clear();
-    for (int i = 0; i < across; ++i)
-        if (const auto ray = through(i, 0)) result.rays.push_back(*ray);
+    const int in_plane = across * across;
+    for (int i = 0; i < in_plane; ++i)
+        if (const auto ray = lens.ray(panel, {box->x0 + (i + 0.5) * (box->x1 - box->x0) / in_plane, 0}))
+            result.rays.push_back(*ray);
     return result;
 }
 

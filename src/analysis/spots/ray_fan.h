@@ -15,8 +15,8 @@ struct Bundle {
     std::vector<LensRay> rays;
     double light = 0;  // the area of their direction cosines, which a Lambertian point fills with equal light
 };
-/// Returns the rays at the middles of a grid of `across` x `across` cells over the directions that get through; `panel`: mm from
-/// the lens's axis.
+/// Returns the rays at the middles of a grid of `across` x `across` cells (of strips across^2 in a row) over the directions that
+/// get through; `panel`: mm from the lens's axis.
 Bundle bundle(const LensTrace&, Point panel, int across);
 
 /// A ray of a fan, projected onto the fan's plane: at depth z it is at `at` + slope z, mm.
