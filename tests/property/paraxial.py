@@ -35,7 +35,7 @@ def forms(display, description):
         "theory.fov_elemental_deg": seen(images / (2 * g)),
         "theory.elemental_pitch_mm": images,
         "theory.views": p / (a * along_row),
-        "theory.view_step_deg": seen(p / (2 * g)) * a * along_row / p,
+        "theory.view_step_deg": seen(p / along_row / (2 * g)) * a * along_row / p,
         "theory.viewing_zone_deg": seen(images / (2 * g) - outermost * abs(1 / eye - 1 / made_for)),
         "theory.viewing_zone_parallel_deg": seen(p / (2 * g) - outermost / eye),
         "theory.eyebox_mm": eye * images / g,
