@@ -106,8 +106,8 @@ class Display:
     def __hash__(self) -> int:
         return hash(repr(self))
 
-    def __reduce__(self) -> tuple[Callable[[str, str], Display], tuple[str, str]]:
-        return Display.parse, (repr(self), os.sep)
+    def __reduce__(self) -> tuple[Callable[[_core.Display], Display], tuple[_core.Display]]:
+        return Display._of, (self._handle,)
 
 
 def _unknown(key: str) -> UnknownKeyError:

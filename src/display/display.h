@@ -212,10 +212,11 @@ struct Inverse {
 struct Content {
     std::string model;               // mesh file; relative to the description file; empty: none
     std::optional<double> depth_mm;  // of the model's centre, from the viewer-side vertex plane; default L, or 0 where L is too far
-    std::optional<double> height_mm;      // default half the panel's height; of objects as they are
-    double tilt_deg = 0;                  // about x, before the yaw; positive raises the front
-    double yaw_deg = 0;                   // counter-clockwise seen from above
-    double viewing_distance_mm = 2000;    // from the panel; infinity allowed
+    std::optional<double> written_depth_mm;  // no key: that default in the description before changes, which takes its place
+    std::optional<double> height_mm;         // default half the panel's height; of objects as they are
+    double tilt_deg = 0;                     // about x, before the yaw; positive raises the front
+    double yaw_deg = 0;                      // counter-clockwise seen from above
+    double viewing_distance_mm = 2000;       // from the panel; infinity allowed
     std::optional<double> view_cone_deg;  // A, that the views of a quilt made for the display span; absent: as docs/views.md says
     PickupKind pickup = PickupKind::nodal;
     std::int64_t pickup_rays = 16;  // of the integrated pick-up

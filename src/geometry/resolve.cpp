@@ -172,7 +172,8 @@ Geometry resolve_unchecked(const Display& d) {
     // collimate, that plane is too far away for any scene, and content is at the lenses.
     const double central = g.rear_principal_mm + theory(d, g).central_depth_mm - g.vertex_plane_mm;
     const double viewer = std::min(d.content.viewing_distance_mm, d.camera.position_mm[2]) - g.vertex_plane_mm;
-    g.content_depth_mm = d.content.depth_mm.value_or(std::abs(central) <= viewer / 2 ? central : 0);
+    const double by_default = d.content.written_depth_mm.value_or(std::abs(central) <= viewer / 2 ? central : 0);
+    g.content_depth_mm = d.content.depth_mm.value_or(by_default);
     g.content_height_mm = d.content.height_mm.value_or(g.panel_height_mm / 2);
     if (!d.content.objects.empty()) {  // these have positions and sizes of the description
         g.content_depth_mm = d.content.depth_mm.value_or(middle_z_mm(d.content.objects));

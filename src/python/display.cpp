@@ -7,9 +7,11 @@
 #include "report/drawings/side_view.h"
 #include "report/folder/check.h"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cctype>
@@ -37,14 +39,6 @@ Display read(const Read& display) {
     } catch (const InputError& error) {
         throw DisplayFault(error.problems);
     }
-}
-
-/// The display with overrides, "KEY=VALUE" as of the option --set.
-Display changed(const Display& display, const std::vector<std::string>& overrides) {
-    Display made = read([&] { return parse_display(write_display(display), "display", overrides); });
-    // The text lacks the catalogues, because it has the coefficients of their glasses; later overrides may name glasses of them.
-    if (made.glass_catalogues.empty()) made.glass_catalogues = display.glass_catalogues;
-    return made;
 }
 
 // A key's value as a Python object: lists become tuples, words become strings, and an absent value None.
@@ -141,6 +135,19 @@ nb::object default_word(std::string_view path) {
         found->fresh);
 }
 
+/// What pickle stores of a display: its description, and the depth that its model would have without depth_mm.
+using State = std::tuple<std::string, std::optional<double>>;
+State state(const Display& display) {
+    Display keys = display;
+    keys.content.written_depth_mm.reset();
+    return {write_display(keys), display.content.written_depth_mm};
+}
+Display restored(const State& of) {
+    Display display = read([&] { return parse_display(std::get<0>(of), "display"); });
+    display.content.written_depth_mm = std::get<1>(of);
+    return display;
+}
+
 /// The display with a model in place of its content. Throws InputError if the name is empty.
 Display with_model(Display display, const std::string& model) {
     if (model.empty()) throw InputError("model", "the name is empty; give a mesh file or built-in:spheres");
@@ -178,7 +185,14 @@ void add_display(nb::module_& m) {
                 return read([&] { return parse_display(text, "text", overrides, folder); });
             },
             nb::arg("text"), nb::arg("folder"), nb::arg("overrides"))
-        .def("changed", changed, nb::arg("overrides"))
+        .def(
+            "changed",
+            [](const Display& display, const std::vector<std::string>& overrides) {
+                return read([&] { return changed(display, overrides); });
+            },
+            nb::arg("overrides"))
+        .def("__getstate__", state)
+        .def("__setstate__", [](Display& display, const State& of) { new (&display) Display(restored(of)); })
         .def("with_model", with_model, nb::arg("model"))
         .def("text", write_display)
         .def("values", values)

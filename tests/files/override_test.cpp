@@ -54,9 +54,25 @@ TEST(Override, LeaveTheModelWhereItStood) {
     EXPECT_EQ(depth({"array.gap_mm=9.0"}), written);
     EXPECT_EQ(depth({"camera.position_mm=[0, 0, 900]", "panel.pixel_pitch_mm=0.2"}), written);
     EXPECT_EQ(depth({"array.gap_mm=9.0", "content.depth_mm=7"}), 7);
-    // Taken away by name, it is the changed display's.
-    EXPECT_EQ(depth({"array.gap_mm=9.0", "content.depth_mm=none"}),
-              resolve(parse_display(with("gap_mm = ", "gap_mm = 9.0 #", no_depth), "d")).content_depth_mm);
+    // It returns there when its depth is taken away, whichever change comes first, at once or one after the other, and also where
+    // the description had another depth.
+    EXPECT_EQ(depth({"array.gap_mm=9.0", "content.depth_mm=none"}), written);
+    const std::vector<std::string> gap{"array.gap_mm=9.0"}, none{"content.depth_mm=none"};
+    for (const Display& d : {parse_display(no_depth, "d"), parse_display(no_depth + "depth_mm = 7\n", "d")})
+        for (const Display& moved :
+             {changed(d, {gap[0], none[0]}), changed(changed(d, gap), none), changed(changed(d, none), gap)}) {
+            EXPECT_EQ(resolve(moved).content_depth_mm, written);
+            EXPECT_EQ(resolve(parse_display(write_display(moved), "d")).content_depth_mm, written);
+        }
+}
+
+// Objects have places of their own, which the default depth of a model does not move.
+TEST(Override, LeaveObjectsWhereTheyStand) {
+    const Display d = parse_display(example_text, "d");
+    const std::string objects = "content.object=[{model='built-in:spheres', height_mm=5.0, position_mm=[0, 0, 3]}]";
+    EXPECT_EQ(resolve(changed(changed(d, {"array.gap_mm=9.0"}), {objects})).content_depth_mm, 3);
+    EXPECT_EQ(resolve(changed(changed(d, {objects}), {"array.gap_mm=9.0", "content.object=none"})).content_depth_mm,
+              resolve(d).content_depth_mm);
 }
 
 TEST(Override, NoneTakesAway) {

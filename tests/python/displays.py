@@ -126,6 +126,18 @@ class Identity(TinyTest):
         self.assertEqual(len({d, pickle.loads(held), self.display}), 2)
         self.assertNotEqual(d, repr(d))
 
+    def test_a_model_without_depth_stands_where_the_description_had_it(self) -> None:
+        def depth(display):
+            return lfdsim.check(display)["geometry"]["content_depth_mm"]
+
+        gap, none = {"array.gap_mm": 1.01 * self.display["array.gap_mm"]}, {"content.depth_mm": None}
+        written = depth(self.display.with_(none))
+        both = self.display.with_(gap).with_(none)
+        for d in (both, self.display.with_(none).with_(gap), lfdsim.Display.load("tiny.toml", none | gap), pickle.loads(pickle.dumps(both))):
+            self.assertEqual(depth(d), written)
+            self.assertEqual(depth(pickle.loads(pickle.dumps(d.with_({"content.depth_mm": 1}))).with_(none)), written)
+            self.assertIsNone(d["content.depth_mm"])
+
     def test_errors_survive_a_pickle(self) -> None:
         for wrong in (lambda: self.display["x.y"], lambda: self.display.with_({"array.gap_mm": 0})):
             with self.assertRaises(lfdsim.DisplayError) as caught:

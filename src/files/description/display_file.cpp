@@ -314,18 +314,19 @@ class DisplayReader {
     std::vector<Located> superfluous;
 };
 
-/// Gives a model the depth that it has by default in the description as written: if it moved with each change of the gap or the
+/// Returns the depth that a model has by default in the description as written: if it moved with each change of the gap or the
 /// lens, a sweep would compare pictures of different scenes. A description that cannot be shown without its overrides has no such
 /// depth.
-void keep_depth(Display& changed, std::string_view text, std::string_view name, const std::filesystem::path& folder) {
-    if (changed.content.depth_mm || !changed.content.objects.empty()) return;
+std::optional<double> written_depth_mm(std::string_view text, std::string_view name, const std::filesystem::path& folder) {
     try {
         const Source source(text, name, {});
         Display written = DisplayReader(source, folder).read();
-        if (!written.content.objects.empty()) return;
+        written.content.depth_mm.reset();
+        written.content.objects.clear();
         written.errors = {};  // content is made for the display without them
-        changed.content.depth_mm = resolve(written).content_depth_mm;
+        return resolve(written).content_depth_mm;
     } catch (const InputError&) {
+        return {};
     }
 }
 
@@ -336,8 +337,18 @@ Display parse_display(std::string_view text, std::string_view name, const std::v
     check_text(text, name);
     const Source source(text, name, overrides);
     Display display = DisplayReader(source, folder).read();
-    if (!overrides.empty() && !source.is_set("content.depth_mm")) keep_depth(display, text, name, folder);
+    if (!overrides.empty()) display.content.written_depth_mm = written_depth_mm(text, name, folder);
     return display;
+}
+
+Display changed(const Display& display, const std::vector<std::string>& overrides) {
+    Display keys = display;
+    keys.content.written_depth_mm.reset();
+    Display made = parse_display(write_display(keys), "display", overrides);
+    if (display.content.written_depth_mm) made.content.written_depth_mm = display.content.written_depth_mm;
+    // The text lacks the catalogues, because it has the coefficients of their glasses; later overrides may name glasses of them.
+    if (made.glass_catalogues.empty()) made.glass_catalogues = display.glass_catalogues;
+    return made;
 }
 
 Display read_display(const std::filesystem::path& path, const std::vector<std::string>& overrides) {

@@ -4,7 +4,14 @@
 #include "files/description/values.h"
 
 namespace lfdsim {
+
 std::string write_display(const Display& display) {
+    if (display.content.written_depth_mm) {  // the description that is read back has no other as written: its model gets the depth
+        Display whole = display;
+        if (whole.content.objects.empty() && !whole.content.depth_mm) whole.content.depth_mm = whole.content.written_depth_mm;
+        whole.content.written_depth_mm.reset();
+        return write_display(whole);
+    }
     std::string text = "schema = 1\n", table;
     visit_all(display, [&](const std::string& path, const KeyInfo& key, ConstValueRef ref, ConstValueRef) {
         // An absent optional has no text, and a key without text is left out.
