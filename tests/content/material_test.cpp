@@ -104,7 +104,27 @@ TEST(Material, FineTexturesAreAveraged) {
     write_image(folder.path() / "t.png", texels);
     const Image image = shoot(write_square(folder, "map_Kd t.png"));
     for (int row = 32; row < 128; ++row) {
-        for (int column = 72; column < 168; ++column) ASSERT_NEAR(image.at(column, row)[0] / facing_light, 0.5, 0.01);
+        for (int column = 72; column < 168; ++column) ASSERT_NEAR(image.at(column, row)[0] / facing_light, 0.5, 1e-4);
+    }
+}
+
+// A gradient of one code a texel, of which a pixel sees two or three, is as bright and where it is at full size; also where halves
+// of its size are odd.
+TEST(Material, FinerTexelsKeepTheirBrightnessAndPlace) {
+    for (const int size : {256, 251}) {
+        Folder folder;
+        Image texels(size, size);
+        for (int j = 0; j < size; ++j) {
+            for (int i = 0; i < size; ++i) std::fill_n(texels.at(i, j), 3, float(srgb_to_linear(i / 255.)));
+        }
+        write_image(folder.path() / "t.png", texels);
+        const Image image = shoot(write_square(folder, "map_Kd t.png"));
+        for (int column = 74; column < 166; ++column) {
+            const double code = (column + 0.5 - 70) / 100 * size - 0.5;
+            const double per_code = srgb_to_linear((code + 0.5) / 255) - srgb_to_linear((code - 0.5) / 255);
+            const double light = image.at(column, 80)[0] / facing_light;
+            ASSERT_NEAR((light - srgb_to_linear(code / 255)) / per_code, 0, 0.15) << size << " at " << code;
+        }
     }
 }
 

@@ -10,7 +10,9 @@ namespace lfdsim {
 /// Linear light in one register: red, green, blue and 0; of textures with alpha red, green and blue times alpha, and alpha.
 typedef float Texel __attribute__((vector_size(16)));
 
-/// A mip pyramid: each level halves the one below by averaging 2 x 2 texels in linear light.
+/// A mip pyramid: each level halves the one below by the mean over a texel's area in linear light. Of the texture itself it keeps
+/// the codes. Means have 16 bits: the mean of two neighbouring codes is half-way between them, and would always be rounded up to
+/// the next code; floats would take twice the memory.
 class MipMap {
   public:
     /// Without alpha the texture is opaque.
@@ -25,13 +27,17 @@ class MipMap {
     double bytes() const;
 
   private:
+    typedef std::uint16_t Mean __attribute__((vector_size(8)));  // a Texel times 65535
     struct Level {
         int width, height;
-        std::vector<std::uint32_t> codes;  // sRGB and alpha: 0xaabbggrr
+        std::vector<Mean> means;  // of level 0 none
     };
-    Texel bilinear(const Level&, int x0, int y0, int x1, int y1, float right, float down) const;
+    Level halved(std::size_t level) const;
+    Texel texel(std::size_t level, std::size_t i) const;
+    Texel bilinear(std::size_t level, int x0, int y0, int x1, int y1, float right, float down) const;
 
     bool with_alpha_;
+    std::vector<std::uint32_t> codes_;  // of level 0, sRGB and alpha: 0xaabbggrr
     std::vector<Level> levels_;
     std::vector<float> sizes_;  // width and height of each level, and 1, 1
     const float* light_;        // linear light of each code

@@ -160,9 +160,10 @@ std::string making_scene_text(const ContentParts& parts) {
 }
 
 // Lists that grow while objects are joined may have room for twice as much. Embree 3 takes at most 115 bytes per triangle while
-// it builds a tree of many triangles, and some blocks for one of few.
+// it builds a tree of many triangles, and some blocks for one of few. The means of a texture's texels (content/models/texture.h)
+// are a third as many, and twice as long.
 double making_scene_bytes(const ContentParts& parts, const Display& display) {
-    constexpr double tree_bytes = 160, least_tree_bytes = 1 << 16, growth = 2, mip_levels = 4. / 3;
+    constexpr double tree_bytes = 160, least_tree_bytes = 1 << 16, growth = 2, mip_levels = 5. / 3;
     constexpr double vertex_bytes = 4 * (3 + 3 + 2 + 3), triangle_bytes = 4 * (3 + 1), posed_bytes = 4 * 3,
                      texture_density_bytes = 4;
     const std::vector<SceneObject>& objects = display.content.objects;
