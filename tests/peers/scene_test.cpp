@@ -284,7 +284,7 @@ TEST(Cell, OfAStripIsCoveredOnce) {
         desktop({"array.lattice=\"strips\"", "array.count=none", "array.surround=\"plate\"", "lens.stop_radius_mm=2.0"});
     const Geometry of_stopped = resolve(stopped);
     const Patch black = *named(peers::mesh_array(stopped, of_stopped, 1000).cell, "black");
-    EXPECT_NEAR(area_from_above(black) / (2 * cell_half(stopped, of_stopped)[1]), 12 - 4, 0.01);
+    EXPECT_NEAR(area_from_above(black) / (2 * cell_half(of_stopped)[1]), 12 - 4, 0.01);
 }
 
 TEST(Cell, HasFacesOfLayers) {
