@@ -31,6 +31,26 @@ CellRect shrunk(const CellRect& r, double aperture_ratio) {
     return out;
 }
 
+/// Returns the shrunk rectangle with its borders on a grid of `lines` a pixel. Its shorter side is rounded, then its longer one so
+/// that the area is nearest. It stays within the rounded borders of `r`, and a shrunk one is smaller than these, so that rectangles
+/// do not touch.
+CellRect shrunk_on_grid(const CellRect& r, double aperture_ratio, int lines) {
+    const auto nearest = [](double x) { return std::floor(x + 0.5 + 1e-6); };
+    const CellRect lit = shrunk(r, aperture_ratio);
+    CellRect out{};
+    double area = lit.area() * lines * lines;
+    const std::size_t shorter = lit.to[1] - lit.from[1] < lit.to[0] - lit.from[0] ? 1 : 0;
+    for (const std::size_t k : {shorter, 1 - shorter}) {
+        const double from = nearest(r.from[k] * lines), room = nearest(r.to[k] * lines) - from;
+        const double wanted = k == shorter ? (lit.to[k] - lit.from[k]) * lines : area;
+        const double length = std::max(std::min(nearest(wanted), aperture_ratio < 1 ? room - 1 : room), 1.);
+        area /= length;
+        out.from[k] = (from + std::floor(0.5 * (room - length))) / lines;
+        out.to[k] = out.from[k] + length / lines;
+    }
+    return out;
+}
+
 /// Returns a modulo n, 0 .. n - 1 also for negative a.
 std::int64_t floor_mod(std::int64_t a, std::int64_t n) { return (a % n + n) % n; }
 
@@ -98,6 +118,29 @@ void add_parts(const Subpixel& s, const CellRect& lit, const std::array<std::int
         }
 }
 
+/// Returns the parts of all subpixels; `shrink` returns what is lit of a rectangle.
+template <class Shrink>
+std::vector<LitPart> parts_of(const Panel& panel, const Shrink& shrink) {
+    std::vector<LitPart> parts;
+    if (panel.subpixels == SubpixelLayout::none) {
+        const CellRect lit = shrink({{0, 0}, {1, 1}});
+        return {{3, {}, lit.from, lit.to, 1}};
+    }
+    const SubpixelCell cell = subpixel_cell(panel);
+    for (const Channel channel : {Channel::r, Channel::g, Channel::b}) {
+        std::vector<Subpixel> all;
+        for (const Subpixel& s : cell.subpixels)
+            if (s.channel == channel) all.push_back(in_first_cell(s, cell.size));
+        // One subpixel of each group that repeats, with the share of its area in the channel's
+        const std::array<std::int64_t, 2> least = least_cell(all, cell.size);
+        std::erase_if(all, [&](const Subpixel& s) { return s.pixel[0] >= least[0] || s.pixel[1] >= least[1]; });
+        double area = 0;
+        for (const Subpixel& s : all) area += rect_of(s).area();
+        for (const Subpixel& s : all) add_parts(s, shrink(rect_of(s)), least, rect_of(s).area() / area, parts);
+    }
+    return parts;
+}
+
 }  // namespace
 
 SubpixelCell subpixel_cell(const Panel& panel) {
@@ -140,25 +183,11 @@ SubpixelCell subpixel_cell(const Panel& panel) {
 }
 
 std::vector<LitPart> lit_parts(const Panel& panel) {
-    std::vector<LitPart> parts;
-    if (panel.subpixels == SubpixelLayout::none) {
-        const CellRect lit = shrunk({{0, 0}, {1, 1}}, panel.aperture_ratio);
-        return {{3, {}, lit.from, lit.to, 1}};
-    }
-    const SubpixelCell cell = subpixel_cell(panel);
-    for (const Channel channel : {Channel::r, Channel::g, Channel::b}) {
-        std::vector<Subpixel> all;
-        for (const Subpixel& s : cell.subpixels)
-            if (s.channel == channel) all.push_back(in_first_cell(s, cell.size));
-        // One subpixel of each group that repeats, with the share of its area in the channel's
-        const std::array<std::int64_t, 2> least = least_cell(all, cell.size);
-        std::erase_if(all, [&](const Subpixel& s) { return s.pixel[0] >= least[0] || s.pixel[1] >= least[1]; });
-        double area = 0;
-        for (const Subpixel& s : all) area += rect_of(s).area();
-        for (const Subpixel& s : all)
-            add_parts(s, shrunk(rect_of(s), panel.aperture_ratio), least, rect_of(s).area() / area, parts);
-    }
-    return parts;
+    return parts_of(panel, [&](const CellRect& r) { return shrunk(r, panel.aperture_ratio); });
+}
+
+std::vector<LitPart> lit_parts_on_grid(const Panel& panel, int lines) {
+    return parts_of(panel, [&](const CellRect& r) { return shrunk_on_grid(r, panel.aperture_ratio, lines); });
 }
 
 std::vector<LitPart> bounded_parts(const Panel& panel) {

@@ -34,6 +34,9 @@ struct LitPart {
 /// Returns the parts of all subpixels of a valid panel, shrunk to its aperture ratio, each in the smallest cell after which its
 /// channel repeats.
 std::vector<LitPart> lit_parts(const Panel&);
+/// Returns the same parts with all borders on a grid of `lines` lines a pixel: areas are as near to the true ones as whole sides
+/// allow that leave black around each shrunk rectangle.
+std::vector<LitPart> lit_parts_on_grid(const Panel&, int lines);
 
 /// Returns the parts of the subpixels of a bounded panel: beyond its right and lower border nothing emits, also where the border
 /// cuts a cell and a rectangle of a pixel on the panel lies there. The area of a part beyond the border is a separate part, whose

@@ -165,7 +165,7 @@ void run(const ExportArguments& args) {
     PanelTexels panel =
         shown_panel(args.panel_image, args.pattern, display, geometry, pattern_options, args.work.threads(), progress);
     panel.texels = light_of_channel(std::move(panel.texels), options.channel);
-    if (fine.times > 1) panel.texels = fine_image(fine, display.panel, panel.texels);
+    if (fine.times > 1) panel.texels = fine_image(fine, panel.texels);
     if (const auto deviation = panel_deviation(scene, panel.texels)) scene.deviations.push_back(*deviation);
     write_text(folder / description_file, description);
 

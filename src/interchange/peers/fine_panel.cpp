@@ -1,7 +1,6 @@
 #include "interchange/peers/fine_panel.h"
 
 #include "base/input_error.h"
-#include "geometry/subpixels.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -21,48 +20,32 @@ bool shows_borders(const std::vector<LitPart>& parts, int times) {
     });
 }
 
-/// A subpixel's part in fine pixels, those whose centres it holds.
-struct FinePart {
-    LitPart part;
-    std::int64_t times;
+/// Returns the area of the parts, in pixels for each pixel of the panel.
+double area_of(const std::vector<LitPart>& parts) {
+    double area = 0;
+    for (const LitPart& part : parts) area += part.share / part.brightness();
+    return area;
+}
 
-    /// Returns whether the centre of a fine pixel, whose column (axis 0) or row (1) is `place`, lies in the part along that axis.
-    bool holds(std::int64_t place, std::size_t axis) const {
-        const double at = (double(place % cell(axis)) + 0.5) / double(times);
-        return at >= part.from[axis] && at < part.to[axis];
-    }
-    /// Returns the size of the cell along an axis, in fine pixels.
-    std::int64_t cell(std::size_t axis) const { return part.plane.cell[axis] * times; }
-    /// Returns the factor that makes white white in the mean, whatever rounding does to the part.
-    double brightness() const {
-        double area = 1;
-        for (const std::size_t axis : {0u, 1u}) {
-            std::int64_t count = 0;
-            for (std::int64_t place = 0; place < cell(axis); ++place) count += holds(place, axis);
-            area *= double(count) / double(cell(axis));
-        }
-        if (area == 0)
-            throw InputError("panel.aperture_ratio",
-                             "makes subpixels too small for another renderer's panel image; take a larger value");
-        return part.share / area;
-    }
-};
-
-/// Returns the largest brightness of the parts in fine pixels.
-double peak_of(const std::vector<LitPart>& parts, int times) {
-    double most = 0;
-    for (const LitPart& part : parts) most = std::max(most, FinePart{part, times}.brightness());
-    return most;
+/// Returns whether the centre of a fine pixel, whose column (axis 0) or row (1) is `place`, lies in the part along that axis.
+bool holds(const LitPart& part, std::int64_t times, std::int64_t place, std::size_t axis) {
+    const double at = (double(place % (part.plane.cell[axis] * times)) + 0.5) / double(times);
+    return at >= part.from[axis] && at < part.to[axis];
 }
 
 }  // namespace
 
 FinePanel fine_panel(const Display& display) {
-    FinePanel fine{display, 1, 1, {}};
+    FinePanel fine;
+    fine.display = display;
     if (lights_whole_pixels(display.panel)) return fine;
     const std::vector<LitPart> parts = lit_parts(display.panel);
     while (fine.times < most_times && !shows_borders(parts, fine.times)) ++fine.times;
-    fine.light = 1 / peak_of(parts, fine.times);
+    const bool rounded = !shows_borders(parts, fine.times);
+    fine.parts = rounded ? lit_parts_on_grid(display.panel, fine.times) : parts;
+    double peak = 0;
+    for (const LitPart& part : fine.parts) peak = std::max(peak, part.brightness());
+    fine.light = 1 / peak;
     Panel& panel = fine.display.panel;
     double pixels = 1;
     for (std::int64_t& count : panel.pixels) pixels *= double(count *= fine.times);
@@ -78,28 +61,31 @@ FinePanel fine_panel(const Display& display) {
     panel.subpixel_cell.reset();
     panel.custom.clear();
     fine.deviations.push_back(
-        fmt::format("The panel's light is {:.4g} times the display's, so that its brightest subpixels are at most 1.", fine.light));
-    if (!shows_borders(parts, fine.times))
-        fine.deviations.push_back(fmt::format("Borders of subpixels are rounded to 1/{} of a pixel.", fine.times));
+        fmt::format("The panel's light is {:.4g} times the display's{}, so that its brightest subpixels are at most 1.", fine.light,
+                    rounded ? " in the mean" : ""));
+    if (rounded)
+        fine.deviations.push_back(
+            fmt::format("Subpixels are rounded to 1/{} of a pixel: their area is {:.4g} times the display's, and where they are "
+                        "lit, their light {:.4g} times.",
+                        fine.times, area_of(fine.parts) / area_of(parts), fine.light * area_of(parts) / area_of(fine.parts)));
     return fine;
 }
 
-Texels fine_image(const FinePanel& fine, const Panel& panel, const Texels& shown) {
+Texels fine_image(const FinePanel& fine, const Texels& shown) {
     const std::int64_t columns = shown.columns(), rows = shown.rows();
     Texels image(columns * fine.times, rows * fine.times);
-    for (const LitPart& part : lit_parts(panel)) {
-        const FinePart lit{part, fine.times};
-        const float brightness = float(lit.brightness() * fine.light);
+    for (const LitPart& part : fine.parts) {
+        const float brightness = float(part.brightness() * fine.light);
         const auto [across, down] = part.plane.cell;
         for (std::int64_t y = 0; y < image.rows(); ++y) {
-            const std::int64_t row = y / lit.cell(1) * down + part.plane.pixel[1];
-            if (row < 0 || row >= rows || !lit.holds(y, 1)) continue;
+            const std::int64_t row = y / (down * fine.times) * down + part.plane.pixel[1];
+            if (row < 0 || row >= rows || !holds(part, fine.times, y, 1)) continue;
             for (std::int64_t x = 0; x < image.columns(); ++x) {
-                const std::int64_t column = x / lit.cell(0) * across + part.plane.pixel[0];
-                if (column < 0 || column >= columns || !lit.holds(x, 0)) continue;
+                const std::int64_t column = x / (across * fine.times) * across + part.plane.pixel[0];
+                if (column < 0 || column >= columns || !holds(part, fine.times, x, 0)) continue;
                 for (int c = 0; c < 3; ++c)
                     if (part.channel == 3 || part.channel == c)
-                        image.row(y)[4 * x + c] = brightness * shown.data()[4 * (row * columns + column) + c];
+                        image.row(y)[4 * x + c] += brightness * shown.data()[4 * (row * columns + column) + c];
             }
         }
     }
