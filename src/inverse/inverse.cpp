@@ -236,7 +236,6 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     }
     report.fitted = mean_nearness(fitted, solved.x, 8);
     report.seconds = seconds_since(start);
-    report.rays_per_second = report.seconds > 0 ? double(report.rays) * std::max(report.iterations, 1) / report.seconds : 0;
     InvertedPanel made{{image_of(solved.x, request.display), !solved.stopped, report.rays, 0, report.seconds}, {}};
     double black = 0, full = 0;
     for (const float x : made.picture.image.rgb) black += x <= 0, full += x >= 1;

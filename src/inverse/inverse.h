@@ -28,7 +28,7 @@ struct InverseReport {
     std::int64_t rays_per_element = 0;
     double rows_per_unknown = 0, rays_per_unknown = 0;  // elements of views, and their rays with light, for each panel pixel met
     int iterations = 0;
-    double seconds = 0, rays_per_second = 0;                                // rays of all steps
+    double seconds = 0;                                                     // of the whole fit, whose steps use the same rays
     double gain = 0;                                                        // G, the light of a white panel at these eyes
     double black = 0, white = 1, prior = 0;                                 // the levels B and W; the prior
     Nearness fitted, held_out, held_out_traced;                             // means over eyes; of traced content at held-out ones

@@ -48,7 +48,6 @@ Json inverse_json(const InverseReport& r) {
             {"rays_per_unknown", r.rays_per_unknown},
             {"iterations", r.iterations},
             {"seconds", r.seconds},
-            {"rays_per_second", r.rays_per_second},
             {"white_light", r.gain},
             {"black", r.black},
             {"white", r.white},
