@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lfdsim import _core
-from lfdsim.arguments import Corners, Model, corners, encoding_of, flag, number, pixels, seen
+from lfdsim.arguments import Corners, Model, corners, encoding_of, flag, number, pixels, seen, warn
 from lfdsim.display import Display
 from lfdsim.errors import InputError
 from lfdsim.pictures import Picture
@@ -105,8 +105,12 @@ def screen_corners(
 
 
 def png(picture: ArrayLike) -> bytes:
-    """The PNG file, 8 bits in sRGB, that the program would write: for files, and for pictures in notebooks."""
-    return _core.png(pixels(picture, "picture", 6, white=16))  # and the file
+    """A PNG file, 8 bits in sRGB, with the pixels that the program would write, without the description of a display that its files hold:
+    for files, and for pictures in notebooks. Light above white is cut off, with a warning."""
+    made, cut_off = _core.png(pixels(picture, "picture", 6, white=16))  # and the file
+    if cut_off:
+        warn([f"picture: {cut_off}; divide it by its greatest value, or numpy.save keeps its light"])
+    return made
 
 
 def _points(points: Any, name: str) -> list[list[float]]:

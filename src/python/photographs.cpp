@@ -1,6 +1,7 @@
 #include "engine/devices/memory.h"
 #include "engine/views/screen.h"
 #include "geometry/geometry.h"
+#include "image/compare/above_white.h"
 #include "image/formats/image_file.h"
 #include "image/overlay/overlay.h"
 #include "image/overlay/overlay_picture.h"
@@ -66,11 +67,16 @@ nb::typed<nb::dict, std::string, nb::any> figures(const Overlay& o) {
     return all;
 }
 
-/// The bytes of a PNG file of 8 bits in sRGB.
-nb::bytes png(const AnyPixels& picture) {
+/// The bytes of a PNG file of 8 bits in sRGB, and the warning of light that it cuts off, or an empty text.
+nb::typed<nb::tuple, nb::bytes, std::string> png(const AnyPixels& picture) {
     std::string bytes;
-    run(nb::none(), [&](Job&) { bytes = image_bytes(".png", image_of(picture, Encoding::srgb, "picture")); });
-    return nb::bytes(bytes.data(), bytes.size());
+    CutOff cut;
+    run(nb::none(), [&](Job&) {
+        const Image image = image_of(picture, Encoding::srgb, "picture");
+        cut.add(image);
+        bytes = image_bytes(".png", image);
+    });
+    return nb::make_tuple(nb::bytes(bytes.data(), bytes.size()), cut.text());
 }
 
 }  // namespace

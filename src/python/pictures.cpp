@@ -5,6 +5,7 @@
 #include "engine/devices/memory.h"
 #include "engine/render.h"
 #include "geometry/geometry.h"
+#include "image/compare/above_white.h"
 #include "image/compare/compare.h"
 #include "image/formats/encoding.h"
 #include "python/arrays.h"
@@ -146,6 +147,10 @@ nb::typed<nb::tuple, Pictured, Notes, double> render(const Display& display, con
         if (pixels) return seen(texels_of(*pixels, display.panel.encoding, "panel"));
         PictureWithWarnings content = elemental(display, geometry, threads, job);
         made.notes = std::move(content.notes);
+        CutOff cut;
+        cut.add(content.image);
+        if (const std::string text = cut.text(); !text.empty())
+            made.notes.push_back("the panel's content: " + text + "; the panel shows no more");
         if (!job.cancelled()) seen(shown_texels(content.image, display.panel.encoding));
     });
     return nb::make_tuple(array_of(std::move(made.image)), made.notes, seconds);

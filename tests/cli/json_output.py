@@ -61,6 +61,34 @@ for style in ["auto", "lines", "json", "none", "bar"]:
     if style == "bar":
         checks.that("[=====" in err and err.endswith("\n"), f"--progress bar: {err!r}")
 
+# Light that a PNG or the panel cuts off is told: once, and only where it is much.
+BRIGHT, WHITE = "--model pyramid.obj --set content.light.strength=9", "--pattern white --set panel.subpixels='rgb_stripe'"
+for arguments, name, remedy in [
+    (f"render tiny.toml {WHITE}", "view.png", "lost; --exposure 0.44"),
+    (f"render tiny.toml {WHITE} --exposure 0.9", "view.png", "times smaller, or an .exr or .npy keeps their light"),
+    (f"render tiny.toml {WHITE} --path path.json", "frames", "lost; an .exr or .npy keeps their light"),
+    (f"views tiny.toml --of display {WHITE} --grid 2x1 --view-size 96x52", "grid", "lost; an .exr or .npy keeps their light"),
+    (f"views tiny.toml {BRIGHT}", "bright_qs2x1a1.8.png", "lost; an .exr or .npy keeps their light"),
+    (f"eia tiny.toml {BRIGHT}", "eia.png", "lost; an .exr or .npy keeps their light"),
+    (f"photo tiny.toml {BRIGHT}", "photo.png", "lost; an .exr or .npy keeps their light"),
+    ("sheet bright.npy", "sheet.png", "lost; an .exr or .npy keeps their light"),
+    (f"render tiny.toml {BRIGHT}", "view.npy", "the panel shows no more; --set content.light.strength can darken it"),
+]:
+    if name == "frames":
+        (program.folder / "path.json").write_text(json.dumps({"schema": 1, "frames_per_second": 1, "poses": [
+            {"time_s": 0, "position_mm": [0, 0, 400]}, {"time_s": 1, "position_mm": [9, 0, 400]}]}))
+    if name == "sheet.png":
+        program.must(f"photo tiny.toml {BRIGHT} -o bright.npy")
+    code, out, err = program.run(f"{arguments} -o {name} --json" + ("" if name == "sheet.png" else " --progress none"))
+    checks.that(code == 0 and err.count("warning") == 1 and "are cut off to white" in err and remedy in err, f"{arguments}: {code} {err!r}")
+    told = json.loads(out)
+    told = told.get("elemental_images", told).get("cut_off", {})
+    checks.that(0.01 < told.get("pixels_share", 0) < 1 and 0.01 < told["light_share"] < 1 and 1.1 < told["greatest"] < 9, f"{arguments}: {told}")
+for arguments in [f"render tiny.toml {WHITE} -o view.exr", f"photo tiny.toml {BRIGHT} -o photo.npy", "render tiny.toml --pattern white -o view.png",
+                  "eia tiny.toml --model pyramid.obj -o eia.png", "render tiny.toml --model pyramid.obj -o view.png"]:
+    code, out, err = program.run(f"{arguments} --json --progress none")
+    checks.that(code == 0 and err == "" and "cut_off" not in out, f"{arguments}: {code} {err!r} {out}")
+
 # A picture's error is measured while it is made: it is that against many points.
 def light_of(path):
     data = (program.folder / path).read_bytes()

@@ -99,6 +99,25 @@ TEST(Npy, WholeNumbersAreCodes) {
     EXPECT_FALSE(holds_codes(folder / "f.npy"));
 }
 
+TEST(CutOff, IsSaidFromAThousandthOfTheLightOn) {
+    Image image(100, 20), white(100, 20);
+    image.rgb[3] = 1.004f;  // within half a code of white
+    image.rgb[7] = 2.5f;
+    std::fill(white.rgb.begin(), white.rgb.end(), 1.f);
+    CutOff cut, more;
+    cut.add(image);
+    EXPECT_EQ(cut.cut, 1);
+    EXPECT_EQ(cut.text(),
+              "0.05 % of the pixels are brighter than white, the brightest 2.5 times, and are cut off to white: 43 % of the light "
+              "is lost");
+    more.add(white);
+    more += cut;
+    EXPECT_EQ(more.pixels_share(), 1. / 4000);
+    EXPECT_NEAR(more.light_share(), 1.504 / 6003.504, 1e-9);
+    EXPECT_EQ(more.text(), "");
+    EXPECT_EQ(CutOff().text(), "");
+}
+
 // Light above white on a panel is doubted, and codes anywhere; a display's picture may be some times as bright as its mean white.
 TEST(AboveWhite, DoubtsCodesAndPanelsThatShineTooBright) {
     const auto doubt = [](std::vector<float> light, LightOf of) {

@@ -88,6 +88,10 @@ class Photographs(TinyTest):
         ours = lfdsim.png(lfdsim.render(lfdsim.Display.load("tiny.toml")))
         np.testing.assert_array_equal(np.asarray(Image.open(io.BytesIO(ours))), codes)
         self.assertEqual(lfdsim.png(codes), ours)
+        with self.assertWarnsRegex(lfdsim.LfdsimWarning, "^picture: 100 % of the pixels are brighter than white, the brightest 2.5 times, and are cut off"):
+            lfdsim.png(np.full((4, 4, 3), 2.5))
+        with self.assertWarnsRegex(lfdsim.LfdsimWarning, "^the panel's content: .* is lost; the panel shows no more$"):
+            lfdsim.render(lfdsim.Display.load("tiny.toml", {"content.light.strength": 3}))
 
     def test_refusals(self) -> None:
         good = self.in_photo.tolist()

@@ -94,7 +94,8 @@ void run(const EiaArguments& args) {
     const std::string incomplete = !inverse                  ? ""
                                    : inverse->iterations > 0 ? "the best panel so far"
                                                              : "traced content, as far as it was made";
-    args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress, {}, incomplete);
+    more.update(args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress, {},
+                                  incomplete));
     print_made(PictureMade{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
                args.work.json(), of_views, more);
 }

@@ -47,10 +47,10 @@ void run(const PhotoArguments& args) {
     const ContentScene scene = load_scene(display, geometry);
     Progress progress(args.work.progress());
     const Picture picture = reference_photograph(display, geometry, scene, args.work.threads(), crop, progress);
-    args.output.write(picture.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", picture.seconds)}},
-                      picture.complete, progress);
+    const Json cut_off = args.output.write(picture.image, Encoding::srgb, display,
+                                           {{"seconds", fmt::format("{:.3f}", picture.seconds)}}, picture.complete, progress);
     print_made(PictureMade{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},
-               args.work.json());
+               args.work.json(), {}, cut_off);
 }
 
 }  // namespace

@@ -134,8 +134,10 @@ void run(const RenderArguments& args) {
     if (facts.pixels_above_target > 0)
         spdlog::warn("{} did not reach the target error with the maximum number of samples",
                      counted(facts.pixels_above_target, "pixel"));
-    args.output.write(r.image, Encoding::srgb, display, std::move(facts.about), r.complete, progress, std::move(facts.layers));
+    const Json cut_off =
+        args.output.write(r.image, Encoding::srgb, display, std::move(facts.about), r.complete, progress, std::move(facts.layers));
 
+    facts.more.update(cut_off);
     facts.more.update(panel.made);
     print_made(PictureMade{args.output.path(), r.image.width, r.image.height, "samples", r.samples, r.seconds}, args.work.json(),
                ", " + how_made(r) + (lens ? "; " + args.lens_mesh.text(*lens) : "") + panel.text, facts.more);

@@ -123,6 +123,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
                    std::int64_t(left.size()) * (crop ? std::int64_t(crop->x1 - crop->x0) * (crop->y1 - crop->y0) : columns * rows));
     std::size_t above_target = 0;
     double largest_error = 0;
+    CutOff cut;
     FrameJob frame(progress);
     const auto make = [&](std::size_t i) {
         const Display display = at_frame(w.path, left[i], w.display);
@@ -133,8 +134,8 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
         const fs::path file = w.options.file(w.output, left[i], made.frames);
         Rendered facts = rendered(r, w.rendering.target_error, keeps_layers(file));
         facts.about["shown"] = w.shown;
-        w.output.save(file, r.image, Encoding::srgb, at_frame(w.path, left[i], w.display), std::move(facts.about),
-                      std::move(facts.layers));
+        cut += w.output.save(file, r.image, Encoding::srgb, at_frame(w.path, left[i], w.display), std::move(facts.about),
+                             std::move(facts.layers));
         ++made.rendered;
         made.samples += r.samples;
         made.seconds += r.seconds;
@@ -151,6 +152,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     progress.end();
     if (above_target > 0)
         spdlog::warn("{} did not reach the target error with the maximum number of samples", counted(above_target, "pixel"));
+    made.more.update(w.output.warn(cut));
     if (w.rendering.target_error) made.more["pixels_above_target"] = above_target;
     if (const std::int64_t missing = std::int64_t(left.size()) - made.rendered; missing > 0)
         end_interrupted(w.output.path(), fmt::format("{} of {}", made.frames - missing, counted(made.frames, "frame")),

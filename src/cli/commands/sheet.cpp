@@ -60,8 +60,11 @@ void run(const SheetArguments& args) {
                    2.2 * 12 * cell_pixels);
     const Image sheet = contact_sheet(cells, labels, int(columns));
     write_image(output, sheet, {8, Encoding::srgb, {{"Software", software}}});
-    if (args.json)
-        return print_json(Json{{"output", output}, {"width", sheet.width}, {"height", sheet.height}, {"pictures", cells.size()}});
+    CutOff cut;
+    if (holds_codes(output)) cut.add(sheet);
+    Json made{{"output", output}, {"width", sheet.width}, {"height", sheet.height}, {"pictures", cells.size()}};
+    made.update(warn_of_cut_off(output, cut, keeps_light));
+    if (args.json) return print_json(made);
     print(fmt::format("{}: {}, {} x {} pixels\n", printable(output), counted(cells.size(), "picture"), sheet.width, sheet.height));
 }
 

@@ -241,9 +241,9 @@ Picture& add(Picture& all, const Picture& one) {
 fs::path beside_quilt(const ViewsArguments& args) { return fs::path(args.output.path()).replace_extension(".toml"); }
 
 /// Writes the quilt and, beside it, NAME.toml with its geometry. The first view is the tile at the lower left, and rows of tiles go
-/// up (docs/views.md). Throws Interrupted.
+/// up (docs/views.md). Adds to `more` what --json has of light that is cut off. Throws Interrupted.
 Picture make_quilt(ViewsMaker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid,
-                   const Target& target, Progress& progress) {
+                   const Target& target, Progress& progress, Json& more) {
     Picture all{Image(target.width * target.name.columns, target.height * target.name.rows)};
     progress.stage("views", grid.columns);
     Quiet one(progress);
@@ -257,20 +257,22 @@ Picture make_quilt(ViewsMaker& maker, const ViewsArguments& args, const Display&
         add(all, view);
         progress.advance(1);
     }
-    args.output.write(all.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", all.seconds)}}, true, progress);
+    more.update(
+        args.output.write(all.image, Encoding::srgb, display, {{"seconds", fmt::format("{:.3f}", all.seconds)}}, true, progress));
     write_text(beside_quilt(args), views_toml(grid, "", "", target.how));
     return all;
 }
 
 /// Writes view_0000.png ..., a depth map for each if asked for, and views.toml. The returned picture has the size of a view, and no
-/// pixels. Throws Interrupted.
+/// pixels. Adds to `more` as make_quilt() does. Throws Interrupted.
 Picture make_folder(ViewsMaker& maker, const ViewsArguments& args, const Display& display, const ViewGrid& grid,
-                    const Target& target, const ViewsFolder& folder, Progress& progress) {
+                    const Target& target, const ViewsFolder& folder, Progress& progress, Json& more) {
     const FolderLock lock(args.output.path());
     folder.check();
     const NumberedPictures& pictures = folder.pictures();
     const std::vector<std::int64_t> left = pictures.left();
     Picture all;
+    CutOff cut;
     all.image.width = target.width;
     all.image.height = target.height;
     const auto views = std::int64_t(grid.views()), of_each = pictures.count / views;
@@ -283,11 +285,12 @@ Picture make_folder(ViewsMaker& maker, const ViewsArguments& args, const Display
             const bool is_view = *next % of_each == 0;
             const Picture made = is_view ? maker.view(column, row, one) : maker.depth(column, row, one);
             if (!made.complete) folder.stop();
-            args.output.save(pictures.file(*next), made.image, is_view ? Encoding::srgb : Encoding::linear, display,
-                             {{"shown", pictures.shown}});
+            cut += args.output.save(pictures.file(*next), made.image, is_view ? Encoding::srgb : Encoding::linear, display,
+                                    {{"shown", pictures.shown}});
             if (is_view) add(all, made);
         }
     progress.end();
+    more.update(args.output.warn(cut));
     write_text(folder.toml_file(), folder.toml());
     return all;
 }
@@ -333,9 +336,11 @@ void run(const ViewsArguments& args) {
         folder.check();
     Progress progress(args.work.progress());
     maker.prepare(pattern_options, progress);
-    const Picture made = target.quilt ? make_quilt(maker, args, display, grid, target, progress)
-                                      : make_folder(maker, args, display, grid, target, folder, progress);
+    Json cut_off = Json::object();
+    const Picture made = target.quilt ? make_quilt(maker, args, display, grid, target, progress, cut_off)
+                                      : make_folder(maker, args, display, grid, target, folder, progress, cut_off);
     Json more{{"of", args.of_what.text()}, {"views", grid_json(grid)}};
+    more.update(cut_off);
     more.update(maker.light().made);
     print_made(PictureMade{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays",
                            made.rays, made.seconds},

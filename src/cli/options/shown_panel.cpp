@@ -5,6 +5,11 @@
 #include "report/folder/run_settings.h"
 
 namespace lfdsim::cli {
+namespace {
+
+constexpr const char* less_light = "the panel shows no more; --set content.light.strength can darken it";
+
+}  // namespace
 
 PanelTexels shown_panel(const PanelImageOption& image, const PatternOption& shape, const Display& display, const Geometry& geometry,
                         const PatternOptions& pattern_options, int threads, Progress& progress) {
@@ -23,6 +28,9 @@ PanelTexels shown_panel(const PanelImageOption& image, const PatternOption& shap
         images["inverse"] = inverse_json(*inverse);
         text = "; content " + inverse_text(*inverse);
     }
+    CutOff cut;
+    cut.add(picture.image);
+    images.update(warn_of_cut_off("the panel's content", cut, less_light));
     return {shown_texels(picture.image, display.panel.encoding), {{"elemental_images", std::move(images)}}, std::move(text)};
 }
 

@@ -82,22 +82,42 @@ void OutputOptions::check_bits(const std::filesystem::path& name) const {
     faults.report();
 }
 
-void OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete,
+Json OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete,
                           Progress& progress, std::vector<ImageLayer> layers, const std::string& content) const {
     progress.end();
     if (!complete) about[incomplete_mark] = "true";
-    save(path(), image, encoding, display, std::move(about), std::move(layers), &progress);
+    const CutOff cut = save(path(), image, encoding, display, std::move(about), std::move(layers), &progress);
     progress.end();
+    Json more = warn(cut);
     if (!complete) end_incomplete(path(), content);
+    return more;
 }
 
-void OutputOptions::save(const std::filesystem::path& path, const Image& image, Encoding encoding, const Display& display,
-                         Metadata about, std::vector<ImageLayer> layers, Job* job) const {
+CutOff OutputOptions::save(const std::filesystem::path& path, const Image& image, Encoding encoding, const Display& display,
+                           Metadata about, std::vector<ImageLayer> layers, Job* job) const {
     guard_output(path);
     about["Software"] = software;
     about["command"] = command_line();
     about["display"] = write_display(display);
     write_image(path, image, {bits(), encoding, std::move(about), std::move(layers)}, job);
+    CutOff cut;
+    if (holds_codes(path)) cut.add(image);
+    return cut;
+}
+
+Json OutputOptions::warn(const CutOff& cut) const {
+    std::string darker;  // auto is about the mean, and may cut off more
+    if (command_.knows("--exposure") && !command_.given("--path"))
+        darker = command_.given("--exposure") ? fmt::format("an --exposure {:.4g} times smaller, or ", cut.greatest)
+                                              : fmt::format("--exposure {:.4g}, or ", 1 / cut.greatest);
+    return warn_of_cut_off(path(), cut, darker + keeps_light);
+}
+
+Json warn_of_cut_off(const std::string& what, const CutOff& cut, const std::string& remedy) {
+    const std::string text = cut.text();
+    if (text.empty()) return Json::object();
+    spdlog::warn("{}: {}; {}", what, text, remedy);
+    return {{"cut_off", {{"pixels_share", cut.pixels_share()}, {"light_share", cut.light_share()}, {"greatest", cut.greatest}}}};
 }
 
 void end_interrupted() {

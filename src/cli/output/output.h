@@ -3,6 +3,7 @@
 #include "cli/program/command.h"
 #include "cli/program/progress.h"
 #include "display/display.h"
+#include "image/compare/above_white.h"
 #include "image/formats/image_file.h"
 
 #include <nlohmann/json.hpp>
@@ -33,6 +34,9 @@ std::string command_line();
 /// Name and version, as the metadata of pictures have them.
 inline constexpr const char* software = "lfdsim " LFDSIM_VERSION;
 
+/// The remedy for pictures whose light is cut off.
+inline constexpr const char* keeps_light = "an .exr or .npy keeps their light";
+
 /// The key of a picture's metadata that marks it as incomplete.
 inline constexpr const char* incomplete_mark = "incomplete";
 
@@ -48,7 +52,8 @@ void check_output(const std::string& path, const std::string& option = "--output
 class OutputOptions {
   public:
     OutputOptions(Command command, const std::string& kinds)
-        : path_(command.option("-o,--output", "FILE", "Picture to write: " + kinds).required()),
+        : command_(command),
+          path_(command.option("-o,--output", "FILE", "Picture to write: " + kinds).required()),
           bits_(command.option("--bits", "8|16", "Bits per channel of a .png; default 8")) {}
     /// Checks the output, before long work. Throws InputError unless the picture can be written there in that depth.
     void check() const;
@@ -56,18 +61,25 @@ class OutputOptions {
     void check_bits(const std::filesystem::path& name) const;
     /// Saves the picture with `about`, the command line, version and display, and ends the progress of the work before. A picture
     /// that is not complete is marked as such, and Interrupted is then thrown; `content` says what it contains, if not its
-    /// completed part. Layers are for the formats that keep them.
-    void write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&, std::vector<ImageLayer> = {},
+    /// completed part. Layers are for the formats that keep them. Warns of light that is cut off; returns it as warn() does.
+    Json write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&, std::vector<ImageLayer> = {},
                const std::string& content = {}) const;
-    /// Saves a picture as write() does, at another path; a large one is a stage of the job.
-    void save(const std::filesystem::path&, const Image&, Encoding, const Display&, Metadata about, std::vector<ImageLayer> = {},
-              Job* = nullptr) const;
+    /// Saves a picture as write() does, at another path; a large one is a stage of the job. Returns what its file cuts off, and
+    /// does not warn of it.
+    CutOff save(const std::filesystem::path&, const Image&, Encoding, const Display&, Metadata about, std::vector<ImageLayer> = {},
+                Job* = nullptr) const;
+    /// Warns of light that the saved pictures lack, as warn_of_cut_off() does.
+    Json warn(const CutOff&) const;
     const std::string& path() const { return path_.text(); }
     int bits() const { return bits_.text() == "16" ? 16 : 8; }
 
   private:
+    Command command_;
     Option path_, bits_;
 };
+
+/// Logs a warning of light that `what` lacks, with the remedy, if it is worth a word. Returns the key for --json, or no key.
+Json warn_of_cut_off(const std::string& what, const CutOff&, const std::string& remedy);
 
 /// Logs that the work was stopped and nothing was saved. Throws Interrupted.
 [[noreturn]] void end_interrupted();
