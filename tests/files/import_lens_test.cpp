@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "base/constants.h"
 #include "display/colour.h"
 #include "files/description/display_file.h"
 #include "files/lenses/import_lens.h"
@@ -158,6 +161,48 @@ TEST(ImportLens, GivesSurfacesTheApertureOfTheBeam) {
         EXPECT_NEAR(surfaces[0].semi_aperture_mm, rim * (1 - 5 * 0.02 * 0.5 / 1.5) + 7 * slope + 5 * bent, 1e-12);
         EXPECT_DOUBLE_EQ(d.array.pitch_mm[0], 2 * std::max(surfaces[1].semi_aperture_mm, surfaces[0].semi_aperture_mm));
     }
+}
+
+// A beam from an object at 40 mm to a stop of radius 2 behind the lens, stated in each way that files have. The lens is a
+// plano-convex one; rays are traced here from the object.
+TEST(ImportLens, GivesSurfacesTheApertureOfABeamFromAnObjectNearby) {
+    struct Ray {
+        double first, second, stop, slope;  // heights on the surfaces, slope at the image
+    };
+    const auto traced = [](double y, double slope) {
+        const double first = y + 40 * slope, within = (slope - 0.02 * 0.5 * first) / 1.5, second = first + 5 * within;
+        return Ray{first, second, second + 6 * 1.5 * within, 1.5 * within};
+    };
+    // The marginal ray has the height 2 on the stop. Chief rays have 0 there: of object points at 3 mm from the axis, the slope
+    // before the lens is -3 stop(1, 0)/stop(0, 1), and the entrance pupil is where they cross the axis.
+    const double steep = traced(0, 1).stop, marginal_slope = 2 / steep, chief_slope = -3 * traced(1, 0).stop / steep;
+    const Ray marginal = traced(0, marginal_slope), chief = traced(3, chief_slope);
+    const double pupil_diameter = 2 * marginal_slope * (3 / -chief_slope);
+    const auto lens = [](const std::string& beam, const std::string& of_stop = "") {
+        return beam +
+               "UNIT MM\nSURF 0\n  CURV 0\n  DISZ 40\nSURF 1\n  CURV 0.02\n  DISZ 5\n  GLAS M 1 0 1.5 0\nSURF 2\n  CURV 0\n" +
+               "  DISZ 6\nSURF 3\n  STOP\n  CURV 0\n  DISZ 90\n" + of_stop + "SURF 4\n  CURV 0\n  DISZ 0\n";
+    };
+    const std::string heights = "FTYP 1 0 2 1\nXFLN 0 1.8 0\nYFLN 0 -2.4 9\n";
+    const std::string angle = fmt::format("FTYP 0\nYFLN {}\n", std::atan(chief_slope) / degree);
+    const std::string pupil = fmt::format("ENPD {}\n", pupil_diameter);
+    for (const std::string& zmx : {lens(pupil + heights), lens(pupil + angle), lens(heights, "  DIAM 2\n"),
+                                   lens(angle, "  CLAP 0 2 0\n"), lens(fmt::format("FNUM {} 0\n", 100 / pupil_diameter) + heights),
+                                   lens(fmt::format("FNUM {} 1\n", 1 / (2 * std::abs(marginal.slope))) + heights)}) {
+        const Display d = imported(zmx).display;
+        const std::vector<Surface>& surfaces = d.lens.as<SurfaceLens>().surfaces;  // the panel's side first
+        EXPECT_NEAR(surfaces[0].semi_aperture_mm, 2, 1e-12) << zmx;
+        EXPECT_NEAR(surfaces[1].semi_aperture_mm, std::abs(marginal.second) + std::abs(chief.second), 1e-12) << zmx;
+        EXPECT_NEAR(surfaces[2].semi_aperture_mm, std::abs(marginal.first) + std::abs(chief.first), 1e-12) << zmx;
+    }
+    // A beam of which something is missing, which is said
+    EXPECT_THAT(import_refused(lens(heights)), HasSubstr("surfaces 1, 2, 3, and of a beam from which they would follow no entrance "
+                                                         "pupil, f-number or size of the stop is known"));
+    for (const std::string& zmx : {lens(pupil), lens(pupil + "FTYP 2\nYFLN 3\n"), lens(pupil + "FTYP 1 1\nYFLN 3\n"),
+                                   changed(lens(pupil + heights), "DISZ 40", "DISZ INFINITY")})
+        EXPECT_THAT(import_refused(zmx),
+                    HasSubstr("no field as angles, or as heights of an object at a finite distance, is known"));
+    EXPECT_THAT(import_refused(changed(lens(pupil + heights), "  STOP\n", "")), HasSubstr("no stop is known"));
 }
 
 TEST(ImportLens, IsReadBackAsItWasWritten) {

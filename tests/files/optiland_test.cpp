@@ -112,10 +112,16 @@ TEST(Optiland, ReadsAspheresAndApertures) {
     EXPECT_EQ(parse_optiland(saved(json), "x").surfaces[1].semi_aperture_mm, 4.5);
 }
 
-TEST(Optiland, ReadsAFieldOfTwoAngles) {
+TEST(Optiland, ReadsFieldsOfTwoAnglesOrHeights) {
     Json json = doublet();
     json["fields"]["fields"][0] = {{"x", -3}, {"y", 2}};
     EXPECT_DOUBLE_EQ(*parse_optiland(saved(json), "x").beam.field_slope, std::hypot(std::tan(3 * degree), std::tan(2 * degree)));
+    json["fields"]["field_definition"]["field_type"] = "ObjectHeightField";
+    const DrawnBeam beam = parse_optiland(saved(json), "x").beam;
+    EXPECT_DOUBLE_EQ(*beam.object_height_mm, std::hypot(3, 2));
+    EXPECT_FALSE(beam.field_slope);
+    json["fields"]["telecentric"] = true;
+    EXPECT_FALSE(parse_optiland(saved(json), "x").beam.object_height_mm);
 }
 
 TEST(Optiland, NamesWhatCannotBeImported) {

@@ -18,6 +18,7 @@ void scale(DrawnLens& lens, double factor) {
         }
     }
     if (lens.beam.entrance_pupil_mm) *lens.beam.entrance_pupil_mm *= factor;
+    if (lens.beam.object_height_mm) *lens.beam.object_height_mm *= factor;
 }
 
 double slope_of_field(double x_deg, double y_deg) { return std::hypot(std::tan(x_deg * degree), std::tan(y_deg * degree)); }

@@ -35,8 +35,10 @@ struct DrawnSurface {
 struct DrawnBeam {
     std::optional<double> wavelength_nm;      // the main one
     std::optional<double> entrance_pupil_mm;  // diameter of the entrance pupil
-    std::optional<double> f_number;           // for an object at infinity
+    std::optional<double> f_number;           // of the lens before an object at infinity, wherever the object is
+    std::optional<double> working_f_number;   // 1/(2 tan) of half the angle at which the axial beam meets the image
     std::optional<double> field_slope;        // of the chief ray from the edge of the field, before it enters the lens
+    std::optional<double> object_height_mm;   // from the axis to the edge of the field, in place of the slope
 };
 
 /// A lens of a file, in mm whatever the unit of the file.

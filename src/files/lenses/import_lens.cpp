@@ -164,15 +164,19 @@ class LensImport {
                 if (std::optional<double>& semi = lens.surfaces[i].semi_aperture_mm; !semi) semi = request.semi_aperture_mm;
             notes.push_back(fmt::format("The file has no semi-apertures of surfaces {}: {} mm by --semi-aperture-mm.",
                                         fmt::join(without, ", "), *request.semi_aperture_mm));
-        } else if (by_beam = fill_apertures(lens, indices); by_beam) {
+            return;
+        }
+        const std::optional<std::string> missing = fill_apertures(lens, indices);
+        by_beam = !missing;
+        if (by_beam)
             notes.push_back(fmt::format(
                 "The file has no semi-apertures of surfaces {}: they are as wide as its beam requires, by paraxial rays.",
                 fmt::join(without, ", ")));
-        } else {
+        else
             refuse(lens.surfaces[kept.front()].place,
-                   "no semi-aperture is given for surfaces {}, nor a beam from which they follow; give --semi-aperture-mm",
-                   fmt::join(without, ", "));
-        }
+                   "no semi-aperture is given for surfaces {}, and of a beam from which they would follow no {} is known; give "
+                   "--semi-aperture-mm",
+                   fmt::join(without, ", "), *missing);
     }
 
     // Returns the distance along the axis between two of the file's surfaces, over those that are left out.

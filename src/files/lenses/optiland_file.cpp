@@ -112,12 +112,17 @@ class OptilandReader : LensJsonReader {
             for (DrawnSurface& s : lens.surfaces)
                 if (s.is_stop && !s.semi_aperture_mm) s.semi_aperture_mm = number(member(aperture, "value"), "aperture.value") / 2;
         const LensJson& fields = member(json, "fields");
-        const LensJson& kind = member(member(fields, "field_definition"), "field_type");
-        if (kind == "AngleField" || member(fields, "field_type") == "angle")
-            for (const LensJson& field : member(fields, "fields"))
-                lens.beam.field_slope =
-                    std::max(lens.beam.field_slope.value_or(0),
-                             slope_of_field(number(member(field, "x"), "fields"), number(member(field, "y"), "fields")));
+        const LensJson &kind = member(member(fields, "field_definition"), "field_type"), &old_kind = member(fields, "field_type");
+        const bool is_angle = kind == "AngleField" || old_kind == "angle";
+        // A chief ray that is telecentric before the lens crosses no pupil there.
+        const bool is_height =
+            (kind == "ObjectHeightField" || old_kind == "object_height") && !is_true(member(fields, "telecentric"));
+        if (is_angle || is_height)
+            for (const LensJson& field : member(fields, "fields")) {
+                const double x = number(member(field, "x"), "fields"), y = number(member(field, "y"), "fields");
+                std::optional<double>& most = is_angle ? lens.beam.field_slope : lens.beam.object_height_mm;
+                most = std::max(most.value_or(0), is_angle ? slope_of_field(x, y) : std::hypot(x, y));
+            }
         for (const LensJson& wave : member(member(json, "wavelengths"), "wavelengths"))
             if (is_true(member(wave, "is_primary")) && member(wave, "unit") == "um")
                 lens.beam.wavelength_nm = number(member(wave, "value"), "wavelengths") * 1000;

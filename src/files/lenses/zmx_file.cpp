@@ -213,10 +213,14 @@ class ZmxReader {
             refuse(line, "MNUM {}: has {} configurations, of which only one can be imported; save it alone", count, count);
     }
     void read_pupil() { lens.beam.entrance_pupil_mm = number(1); }
-    void read_f_number() { lens.beam.f_number = number(1); }
-    // FTYP is "kind telecentric fields wavelengths ...", where XFLN and YFLN may have more values than there are fields.
+    // FNUM's second number is 1 for the paraxial working f-number.
+    void read_f_number() { (words.size() > 2 && words[2] == "1" ? lens.beam.working_f_number : lens.beam.f_number) = number(1); }
+    // FTYP is "kind telecentric fields wavelengths ...", where XFLN and YFLN may have more values than there are fields. Kinds are
+    // 0, angles, and 1, heights of the object; a chief ray that is telecentric before the lens crosses no pupil there.
     void read_field_type() {
-        field_is_angle = words.size() > 1 && words[1] == "0";
+        const std::string_view kind = words.size() > 1 ? words[1] : "";
+        field_is_angle = kind == "0";
+        field_is_height = kind == "1" && (words.size() < 3 || words[2] == "0");
         if (const double count = has_number(3) ? number(3) : 0; count >= 1) field_count = count;
     }
     void read_fields() {
@@ -290,11 +294,13 @@ class ZmxReader {
         if (!unread.empty())
             lens.notes.push_back(fmt::format("Words that are unknown and were not read: {}.", fmt::join(unread, ", ")));
         // The beam, and the surfaces in mm.
-        if (field_is_angle) {
-            lens.beam.field_slope = 0;
-            for (std::size_t i = 0; i < fields.size() && double(i) < field_count; ++i)
-                lens.beam.field_slope = std::max(*lens.beam.field_slope, slope_of_field(fields[i][0], fields[i][1]));
+        double slope = 0, height = 0;
+        for (std::size_t i = 0; i < fields.size() && double(i) < field_count; ++i) {
+            slope = std::max(slope, slope_of_field(fields[i][0], fields[i][1]));
+            height = std::max(height, std::hypot(fields[i][0], fields[i][1]));
         }
+        if (field_is_angle) lens.beam.field_slope = slope;
+        if (field_is_height) lens.beam.object_height_mm = height;
         if (wavelengths_um[primary] > 0) lens.beam.wavelength_nm = wavelengths_um[primary] * 1000;
         for (ZmxSurface& s : surfaces) lens.surfaces.push_back(std::move(s.drawn));
         if (unit_mm != 0 && unit_mm != 1) scale(lens, unit_mm);
@@ -326,9 +332,9 @@ class ZmxReader {
     double unit_mm = 0;                                       // 0: not given
     std::array<double, 24> wavelengths_um{};
     std::size_t primary = 0;
-    bool field_is_angle = false;
+    bool field_is_angle = false, field_is_height = false;
     double field_count = std::numeric_limits<double>::infinity();
-    std::vector<std::array<double, 2>> fields;  // x and y of each, in degrees if they are angles
+    std::vector<std::array<double, 2>> fields;  // x and y of each: degrees, or heights
     std::vector<std::size_t> coated;            // numbers of surfaces with coatings
     std::vector<std::string> unread;            // unknown keywords, with their lines
     DrawnLens lens;
