@@ -148,9 +148,8 @@ std::optional<Problem> design(FirstOrder& o) {
         if (pitch_mm < 1.999 * a)
             return Problem{option, fmt::format("is {:g}, less than two pixels of {:.4g} mm behind a lens", pitch_mm, a)};
         if (pitch_mm * fewest_lenses > side_mm)
-            return Problem{option,
-                           fmt::format("makes lenses of {:.4g} mm, of which fewer than {} fit along the panel's shorter side",
-                                       pitch_mm, fewest_lenses)};
+            return Problem{option, fmt::format("makes lenses of {:.4g} mm, wider than 1/{} of the panel's shorter side, {:.4g} mm",
+                                               pitch_mm, fewest_lenses, side_mm)};
     }
     place_lenses(o, L);
 

@@ -25,7 +25,7 @@ struct DesignRequest {
 enum class PitchRule {
     balanced,  // a lens and the image of a panel pixel in the central depth plane look equally wide from the eye
     pupil,     // near eyes: half the pupil, so that light of several lenses enters it together
-    lenses,    // the fewest lenses along the panel's shorter side that make a picture
+    lenses,    // the panel's shorter side is fewest_lenses pitches long: wider lenses would make no picture
     views,     // the fewest pixels behind a lens that make views
     asked      // the request's views or pitch
 };
@@ -56,7 +56,8 @@ inline constexpr double pmma_index = 1.4918;
 /// best one).
 inline constexpr double spherical_blur =
     (pmma_index * pmma_index - 2 * pmma_index + 2 / pmma_index) / (8 * (pmma_index - 1) * (pmma_index - 1));
-/// The fewest panel pixels behind a lens, and the fewest lenses along the panel's shorter side, that a design chooses.
+/// The fewest panel pixels behind a lens, and the fewest pitches that the panel's shorter side is long, in a design. Elemental
+/// images are wider than the pitch, so that fewer of them may fit there.
 inline constexpr int fewest_views = 4, fewest_lenses = 10;
 
 /// Returns a length, mm, rounded to a nanometre: finer than lenses are made, and fine enough for a distant central depth plane.

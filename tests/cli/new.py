@@ -34,6 +34,9 @@ for name, (options, lenses) in DESIGNS.items():
     told = [w for w in checked["warnings"] if not (name == "wall" and "aberration mixes" in w)]
     checks.that(not told, f"{name}: check warns {told}")
     checks.that(all(w in said for w in checked["warnings"]), f"{name}: new does not say {checked['warnings']}, but {said!r}")
+# The widest lenses are a tenth of the shorter side, where 9 elemental images of a near eye's fit.
+text = (program.folder / "near-eye.toml").read_text().replace("\n# ", " ")
+checks.that("count = [16, 9]" in text and "none is wider than 1/10 of the panel's shorter side" in text, f"near-eye: {text}")
 
 # Whatever check says of a design new has said at once; and a field of view that it names is one of which check says nothing.
 DOUBTFUL = [  # options, what is told
@@ -134,7 +137,7 @@ for name, arguments, *words in [
     ("unknown lens", f"new {TABLET} --lens fresnel -o x.toml", "--lens", "plano_convex, ideal"),
     ("both pitches", f"new {TABLET} --views 20 --pitch-mm 1 -o x.toml", "--views, --pitch-mm: both determine"),
     ("a pitch of a pixel", f"new {TABLET} --pitch-mm 0.1 -o x.toml", "--pitch-mm: is 0.1, less than two pixels"),
-    ("too few lenses", f"new {TABLET} --views 400 -o x.toml", "--views: makes lenses of", "fewer than 10"),
+    ("too few lenses", f"new {TABLET} --views 400 -o x.toml", "--views: makes lenses of", "wider than 1/10 of the panel's shorter side, 107.7 mm"),
     ("a slant of squares", f"new {TABLET} --slant-deg 9 -o x.toml", "--slant-deg: is for --lattice strips"),
     ("an unknown lattice", f"new {TABLET} --lattice triangle -o x.toml", "--lattice", "square, hexagon, strips"),
     ("two gaps", f"new {TABLET} --lattice strips --sheet-mm 2 -o x.toml", "--fov-deg, --sheet-mm: both determine the gap"),

@@ -74,7 +74,8 @@ std::string pitch_reason(const FirstOrder& o) {
                                usual_pupil_mm);
         case PitchRule::lenses:
             return fmt::format(
-                "Wider lenses would resolve more, but fewer than {} of them would be left along the panel's shorter side.",
+                "Wider lenses would resolve more, but none is wider than 1/{} of the panel's shorter side, so that there are "
+                "enough for a picture.",
                 fewest_lenses);
         case PitchRule::asked:
             return o.request.views ? "As asked for by --views." : "As asked for by --pitch-mm.";
