@@ -35,6 +35,21 @@ TEST(Obj, SeveralLibrariesInALine) {
     EXPECT_THAT(info(*load_model(file)).notes, testing::IsEmpty());
 }
 
+// The first material of the faces is not the last of the libraries; another one is in none of them.
+TEST(Obj, SeveralLinesOfLibraries) {
+    Folder folder;
+    folder.write("a.mtl", "newmtl a\nKd 1 0 0\n");
+    folder.write("b.mtl", "newmtl b\nKd 0 0 1\n");
+    const std::string begin = "mtllib a.mtl\nmtllib b.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl a\nf 1 2 3\nusemtl ";
+    const auto file = folder.write("l.obj", begin + "b\nf 1 3 4\n");
+    const Image image = photo(file);
+    EXPECT_EQ(colour_at(image, 0.5, -0.5), "red");
+    EXPECT_EQ(colour_at(image, -0.5, 0.5), "blue");
+    EXPECT_THAT(info(*load_model(file)).notes, testing::IsEmpty());
+    EXPECT_THAT(info(*load_model(folder.write("c.obj", begin + "c\nf 1 3 4\n"))).notes,
+                testing::ElementsAre("material \"c\" is in no material file: shown grey"));
+}
+
 TEST(Stl, KeywordsInCapitals) {
     Folder folder;
     for (const char* text :

@@ -45,11 +45,18 @@ std::string refusal(const std::string& says, const std::filesystem::path& file, 
 
 std::optional<std::string> plain_warning(const std::string& says) {
     constexpr std::string_view no_materials = "OBJ: Unable to locate material file ";
+    constexpr std::string_view no_material = "OBJ: failed to locate material ";
     if (says.starts_with("OBJ: Unable to locate fallback material file")) return {};
+    // Assimp takes a library's last material for the current one: where faces before any "o" or "g" begin with another one, it
+    // makes a mesh of no object, which gets no faces.
+    if (says.starts_with("OBJ: No object detected to attach a new mesh instance")) return {};
     if (says.starts_with(no_materials))
         return "material file \"" + says.substr(no_materials.size()) +
                "\" not found in the model's folder: shown without its colours and textures";
-    return says;
+    if (says.starts_with(no_material))
+        return "material \"" + says.substr(no_material.size(), says.rfind(", creating new material") - no_material.size()) +
+               "\" is in no material file: shown grey";
+    return "Assimp, which reads the file, warns: " + says;
 }
 
 }  // namespace lfdsim::reader
