@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
 #include <vector>
 
 namespace lfdsim {
@@ -137,6 +138,43 @@ std::optional<LensBlur> blur(const Display& d, const Geometry& g, double stop_mm
                     where_sharp(fan, pixel_slope)};
 }
 
+namespace {
+
+/// A wave of colours by theory, and what lines of sight find of it: the sum of their light times exp(-2 pi i f.r), and the sum of
+/// its terms' squared moduli.
+struct BeatSum {
+    Beat beat;
+    WhitePanel white;
+    std::complex<double> sum = 0;
+    double squares = 0;
+
+    /// Adds a line to the point r of the vertex plane that ends at a position of the panel, in pixels.
+    void add(const Vec3d& r, double column, double row, double light) {
+        const double term = light * white.at(column, row);
+        sum += term * std::polar(1., -2 * pi * (beat.frequency[0] * r[0] + beat.frequency[1] * r[1]));
+        squares += term * term;
+    }
+
+    /// Returns the wave before an eye `away` mm from it, and the standard error of its visible contrast. `light`: of all lines.
+    std::pair<ColourWave, double> found(double light, double away, double screen_mm) const {
+        // The contrast of a wave is twice the amplitude of its Fourier component, over the mean. Where the period is more than
+        // twice the screen's width, the screen has one tint, whose contrast is the mean itself. Chance adds the sum of the terms'
+        // squares to the squared modulus of a sum of independent ones, and half of that is the variance of the modulus.
+        const double period = period_mm(beat.frequency), fine = mm_per_degree(away) / period, filter = eye_for_colour.filter(fine);
+        const bool uniform = period > 2 * screen_mm;
+        const double per_sum = (uniform ? 1 : 2) / light, contrast = per_sum * std::sqrt(std::max(std::norm(sum) - squares, 0.));
+        return {{uniform ? infinity : period,
+                 direction_deg(beat.frequency),
+                 fine,
+                 contrast,
+                 contrast * filter,
+                 {beat.turned_per_rad[0] * degree, beat.turned_per_rad[1] * degree}},
+                per_sum * std::sqrt(0.5 * squares) * filter};
+    }
+};
+
+}  // namespace
+
 std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     const bool near = camera_distance_mm(d) < nearest_sight_mm;  // an eye right before the lenses sees through all of its pupil
     const std::optional<Vec3d> eye = eye_before(d, g, near ? 0 : -0.5 * usual_eye_separation_mm);
@@ -144,13 +182,6 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
     // Red, and blue, less the luminance
     constexpr ChannelWeights mixtures[] = {{1 - luminance_weights[0], -luminance_weights[1], -luminance_weights[2]},
                                            {-luminance_weights[0], -luminance_weights[1], 1 - luminance_weights[2]}};
-    // A wave by theory, the sum of the traced light times exp(-2 pi i f.r), and the sum of its terms' squared moduli.
-    struct BeatSum {
-        Beat beat;
-        WhitePanel white;
-        std::complex<double> sum = 0;
-        double squares = 0;
-    };
     std::vector<BeatSum> waves;
     for (const ChannelWeights& weights : mixtures)
         if (const auto beat = MoireTheory(d, g, (*eye)[2], weights).strongest(eye_for_colour))
@@ -175,11 +206,7 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
         light += s.light;
         const double column = s.x / d.panel.pixel_pitch_mm + 0.5 * double(d.panel.pixels[0]),
                      row = 0.5 * double(d.panel.pixels[1]) - s.y / d.panel.pixel_pitch_mm;
-        for (BeatSum& w : waves) {
-            const double term = s.light * w.white.at(column, row);
-            w.sum += term * std::polar(1., -2 * pi * (w.beat.frequency[0] * at[0] + w.beat.frequency[1] * at[1]));
-            w.squares += term * term;
-        }
+        for (BeatSum& w : waves) w.add(at, column, row, s.light);
     };
     std::optional<ColourWave> strongest;
     bool certain = false;
@@ -189,22 +216,8 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
         strongest.reset();
         certain = true;
         for (const BeatSum& w : waves) {
-            // The contrast of a wave is twice the amplitude of its Fourier component, over the mean. Where the period is more than
-            // twice the screen's width, the screen has one tint, whose contrast is the mean itself. The square of a sum of
-            // independent terms exceeds that of their mean's sum by the sum of their squares, and the modulus has half of that as
-            // its variance.
-            const bool uniform = period_mm(w.beat.frequency) > 2 * std::min(g.panel_width_mm, g.array_width_mm);
-            const double fine = mm_per_degree(away) / period_mm(w.beat.frequency), per_sum = (uniform ? 1 : 2) / light,
-                         contrast = per_sum * std::sqrt(std::max(std::norm(w.sum) - w.squares, 0.)),
-                         visible = contrast * eye_for_colour.filter(fine),
-                         error = per_sum * std::sqrt(0.5 * w.squares) * eye_for_colour.filter(fine);
-            certain = certain && error <= std::max(wave_error, 0.1 * visible);
-            const ColourWave wave{uniform ? infinity : period_mm(w.beat.frequency),
-                                  direction_deg(w.beat.frequency),
-                                  fine,
-                                  contrast,
-                                  visible,
-                                  {w.beat.turned_per_rad[0] * degree, w.beat.turned_per_rad[1] * degree}};
+            const auto [wave, error] = w.found(light, away, std::min(g.panel_width_mm, g.array_width_mm));
+            certain = certain && error <= std::max(wave_error, 0.1 * wave.visible);
             if (!strongest || wave.visible > strongest->visible) strongest = wave;
         }
     }
