@@ -140,7 +140,8 @@ constexpr Key<LensArray> array_keys[] = {
     {"aperture", &LensArray::aperture, no_range, false, "Round lenses, or lenses that fill their cells."},
     {"offset_mm", &LensArray::offset_mm, any_length, false, "Offset of the array's centre from the panel's, after the rotation."},
     {"rotation_deg", &LensArray::rotation_deg, turn, false,
-     "Rotation about the array's centre, counter-clockwise as the viewer sees it."},
+     "Rotation about the array's centre, counter-clockwise as the viewer sees it. Content of strips is for eyes side by side, of "
+     "strips nearer to the horizontal than 15 degrees for eyes one above the other."},
     {"slant_deg", &LensArray::slant_deg, slant_range, false,
      "Slant of strips, in place of the rotation: angle of their axes from the vertical, positive where the upper ends lean to the "
      "viewer's right.",

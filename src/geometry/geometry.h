@@ -90,7 +90,9 @@ struct AxisTheory {
 /// Paraxial theory, docs/model.md section "Theory". Infinite where a figure has no finite value, NaN where it is undefined.
 struct Theory {
     std::array<AxisTheory, 2> along;  // along x' and y'; of strips, which do nothing along y', that is NaN
-    double fov_horizontal_deg;        // of strips along the panel's rows, 2 atan(p / (2 g cos(slant))); NaN for others
+    // Of strips along the line of eyes (lattice.h), 2 atan(p / (2 g c)), c the width across strips of a width of 1 along it;
+    // NaN for others.
+    double fov_of_eyes_deg;
     // For pinholes, which have no image plane, all of these but the gap are NaN.
     double focal_length_mm;
     double gap_mm;

@@ -2,6 +2,8 @@
 // optics/lattice.h, compiled once for each instruction set.
 #pragma once
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace lfdsim {
@@ -54,5 +56,25 @@ double outer_radius_mm(const LensArray&);
 /// Returns the lattice of a description, without errors. That of strips has one row, half_pitch[1] beyond every panel, and
 /// per_pitch[1] 0, so that any finite point lies in row 0.
 Lattice<double> make_lattice(const Panel&, const LensArray&);
+
+/// Returns the axis of the display along which eyes see different views of strips, and on which their content is made for eyes: 0,
+/// side by side on the line y = 0, or 1, one above the other on x = 0, where strips lie nearer to the horizontal than 15 degrees.
+/// Of lenses, whose views differ along both, 0.
+inline std::size_t line_of_eyes(const Lattice<double>& l) {
+    constexpr double cos_75_deg = 0.2588190451;  // rounded down: content of a rotation of 75 degrees is for eyes side by side
+    return l.strips && std::abs(l.cos_turn) < cos_75_deg ? 1 : 0;
+}
+
+/// Returns the component x' across strips of a step of 1 along that line, with its sign.
+inline double across_strips(const Lattice<double>& l) { return line_of_eyes(l) == 1 ? l.sin_turn : l.cos_turn; }
+
+/// Returns the width across strips of a width of 1 along that line; 1 for lenses.
+inline double across_share(const Lattice<double>& l) { return l.strips ? std::abs(across_strips(l)) : 1; }
+
+/// Returns why figures along the other axis are missing for strips.
+inline const char* same_from_both_sides(const Lattice<double>& l) {
+    return line_of_eyes(l) == 1 ? "strips that lie flat show the same from the left and from the right"
+                                : "strips show the same from above and from below";
+}
 
 }  // namespace lfdsim

@@ -36,10 +36,10 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     const double a = d.panel.pixel_pitch_mm, p = lens_pitch_mm(g, axis), gap = g.gap_mm;
     AxisTheory t{};
     t.fov_deg = 2 * std::atan(p / (2 * gap)) / degree;
-    t.views = is_strips(d.array) ? p / (a * g.lattice.cos_turn) : p / a;
-    // Views of strips lie side by side along a row, which crosses a strip over p / cos(slant).
-    const double in_row = is_strips(d.array) ? p / g.lattice.cos_turn : p;
-    t.view_step_deg = 2 * std::atan(in_row / (2 * gap)) / degree / t.views;
+    // Views of strips lie side by side along the line of eyes, which crosses a strip over p / c.
+    const double c = across_share(g.lattice);
+    t.views = p / (a * c);
+    t.view_step_deg = 2 * std::atan(p / c / (2 * gap)) / degree / t.views;
 
     // To an eye at X = E tan(theta) the lens at x shows the panel at g (x - X)/E from its axis. The centre of its elemental image
     // is x g/M from the axis, with M the distance from H' that the images are made for, and the image is p' = p (1 + g/M) wide. So
@@ -80,7 +80,7 @@ Theory theory(const Display& d, const Geometry& g) {
                  L = inverse_L == 0 ? infinity : 1 / inverse_L;
 
     Theory t{};
-    t.fov_horizontal_deg = is_strips(d.array) ? 2 * std::atan(g.lattice.pitch[0] / (2 * gap * g.lattice.cos_turn)) / degree : nan;
+    t.fov_of_eyes_deg = is_strips(d.array) ? 2 * std::atan(g.lattice.pitch[0] / (2 * gap * across_share(g.lattice))) / degree : nan;
     t.focal_length_mm = pinhole ? nan : f;
     t.gap_mm = gap;
     t.central_depth_mm = L;

@@ -44,9 +44,10 @@ Vec3d place_in(const EyeBox& box, std::int64_t k) {
 /// p (D - H' + g)/g. It is infinite along strips; the least of both axes in a turned array.
 double view_period_mm(const Geometry& geometry, std::size_t axis, double z_mm) {
     const Lattice<double>& lattice = geometry.lattice;
-    if (lattice.strips && axis == 1) return infinity;
-    const bool both = geometry.turn_deg != 0 && !lattice.strips;
-    const double pitch = both ? std::min(lattice.pitch[0], lattice.pitch[1]) : lattice.pitch[axis];
+    if (lattice.strips && axis != line_of_eyes(lattice)) return infinity;
+    const double pitch = lattice.strips           ? lattice.pitch[0]
+                         : geometry.turn_deg != 0 ? std::min(lattice.pitch[0], lattice.pitch[1])
+                                                  : lattice.pitch[axis];
     return pitch * (z_mm - geometry.rear_principal_mm + geometry.gap_mm) / geometry.gap_mm;
 }
 
@@ -120,7 +121,8 @@ double views_within(std::span<const EyeBox> boxes, const Display& display, const
     double views = 0;
     for (const EyeBox& box : boxes) {
         const double step = view_step_mm(display, geometry, box.low[2]);
-        views += std::max(box.high[0] - box.low[0], is_strips(display.array) ? 0 : box.high[1] - box.low[1]) / step;
+        const auto side = [&](std::size_t axis) { return box.high[axis] - box.low[axis]; };
+        views += (is_strips(display.array) ? side(line_of_eyes(geometry.lattice)) : std::max(side(0), side(1))) / step;
     }
     return views;
 }

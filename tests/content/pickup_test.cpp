@@ -127,23 +127,24 @@ INSTANTIATE_TEST_SUITE_P(Displays, PickupTest,
                                          Case{std::numeric_limits<double>::infinity(), -45, 2, 1}));
 
 // Strips that image the panel onto the eye's distance: whatever point of the sheet a ray from an eye on the line y = 0, z = D aims
-// at, the panel point that it reaches was made for just that eye.
+// at, or x = 0 where the strips lie flat, the panel point that it reaches was made for just that eye.
 TEST(Pickup, StripsShowEachEyeOnTheLineItsOwnView) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> even(-1, 1);
     int own = 0, all = 0;
-    for (const double slant : {-35., 0., 9.46, 18.43, 60.}) {
+    for (const double slant : {-35., 0., 9.46, 18.43, 60., -75., 75.1, -85., 90., -270.}) {
         for (const double D : {400., 900.}) {
             Display d = display();
             d.array.lattice = LatticeKind::strips;
             d.array.count.reset();
-            d.array.slant_deg = slant;
+            d.array.rotation_deg = -slant;
             d.array.pitch_mm = 3;
             d.array.offset_mm = {0.4, -1.7};
             d.content.viewing_distance_mm = D;
             d.lens.kind = IdealLens{1.5, 1 / (1 / 10. + 1 / (D - 10))};
             const Pickup pickup(d, resolve(d));
             const double c = std::cos(slant * degree), s = std::sin(slant * degree);  // across the strips: (c, -s)
+            const bool flat = std::abs(slant) > 75;
             for (int n = 0; n < 400; ++n) {
                 const double eye = 25 * even(random), x = 18 * even(random), y = 14 * even(random);  // at the lenses, z = 10
                 const double across = c * (x - 0.4) - s * (y + 1.7);
@@ -151,13 +152,14 @@ TEST(Pickup, StripsShowEachEyeOnTheLineItsOwnView) {
                 const double half = std::fmod(double(pickup.lattice().count[0]), 2) == 0 ? 0.5 : 0;
                 const double axis = 3 * (std::round(across / 3 - half) + half),
                              bend = (across - axis) / d.lens.as<IdealLens>().focal_length_mm;
-                const double mx = (x - eye) / (10 - D) + c * bend, my = y / (10 - D) - s * bend;  // slopes below the lens
+                const double mx = (x - (flat ? 0 : eye)) / (10 - D) + c * bend,  // slopes below the lens
+                    my = (y - (flat ? eye : 0)) / (10 - D) - s * bend;
                 const NodalLine line = pickup.line(x - 10 * mx, y - 10 * my);
                 ++all;
                 if (!line.owned || std::abs(c * (line.x - 0.4) - s * (line.y + 1.7) - axis) > 1e-9) continue;  // a neighbour's view
                 ++own;
-                EXPECT_NEAR(line.x + line.mx * (D - 10), eye, 1e-8) << slant;
-                EXPECT_NEAR(line.y + line.my * (D - 10), 0, 1e-8) << slant;
+                EXPECT_NEAR(line.x + line.mx * (D - 10), flat ? 0 : eye, 1e-8) << slant;
+                EXPECT_NEAR(line.y + line.my * (D - 10), flat ? eye : 0, 1e-8) << slant;
             }
         }
     }

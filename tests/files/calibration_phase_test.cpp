@@ -125,7 +125,7 @@ TEST(CalibrationPhase, HoldsForAllProducts) {
         EXPECT_NEAR(*d.array.slant_deg, -p.turn_deg, 6e-3);
         EXPECT_NEAR(3 * t.along[0].views * t.along[0].elemental_pitch_mm / d.array.pitch_mm[0], p.subpixels, 6e-3);
         EXPECT_NEAR(2 *
-                        std::atan(std::tan(t.fov_horizontal_deg * std::acos(-1.) / 360) * t.along[0].elemental_pitch_mm /
+                        std::atan(std::tan(t.fov_of_eyes_deg * std::acos(-1.) / 360) * t.along[0].elemental_pitch_mm /
                                   d.array.pitch_mm[0]) *
                         180 / std::acos(-1.),
                     p.cone, 1e-4);

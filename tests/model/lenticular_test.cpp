@@ -41,7 +41,7 @@ TEST(Lenticular, TheoryGivesBackWhatWasAskedFor) {
         const double a = o.display.panel.pixel_pitch_mm, cos = g.lattice.cos_turn, nanometre = 1.1e-6;
         RC_ASSERT(std::abs(t.gap_mm - o.gap_mm) <= 4 * nanometre);
         RC_ASSERT(std::isinf(t.central_depth_mm));  // they focus on the panel
-        RC_ASSERT(std::abs(t.along[0].view_step_deg * t.along[0].views - t.fov_horizontal_deg) <= 1e-9);
+        RC_ASSERT(std::abs(t.along[0].view_step_deg * t.along[0].views - t.fov_of_eyes_deg) <= 1e-9);
         if (r.sheet_mm) RC_ASSERT(std::abs(g.vertex_plane_mm - *r.sheet_mm) <= 4 * nanometre);
         if (r.pitch_mm) RC_ASSERT(std::abs(o.display.array.pitch_mm[0] - *r.pitch_mm) <= nanometre);
         // Elemental images, which are N pixels of a row apart for the eye; the field of view is that of a whole one, along the

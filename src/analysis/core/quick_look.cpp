@@ -81,20 +81,20 @@ std::optional<BetweenEyes> between_eyes(const Display& as_made, const Geometry& 
     Display d = as_made;
     d.content.viewing_distance_mm = camera_distance_mm(d);
     const std::optional<Vec3d> middle = eye_before(d, g);
-    if (!middle) return {};
-    const double distance = (*middle)[2], zone_mm = (distance - g.rear_principal_mm) * image_along_row_mm(d, g) / g.gap_mm;
+    if (!middle || line_of_eyes(g.lattice) == 1) return {};
+    const double distance = (*middle)[2], zone_mm = (distance - g.rear_principal_mm) * image_along_eyes_mm(d, g) / g.gap_mm;
     if (!(zone_mm >= usual_eye_separation_mm)) return {};
     const MeantPanel panel(d, g, d.content.sampling);
     const EyePaths paths(d, g);
-    const MeantTheory paraxial(d, g, distance);
+    const MeantTheory paraxial(d, g);
     const LineSets lines(lines_of_screen / (2 * independent_sets) * paths.more_for(*middle), 0);
     std::optional<BetweenEyes> worse;
     for (const std::size_t side : {0u, 1u}) {
-        const double x = (double(side) - 0.5) * usual_eye_separation_mm;
+        const Vec3d eye{(double(side) - 0.5) * usual_eye_separation_mm, 0, distance};
         const auto percent = [&](const MeantLight& light) { return crosstalk_of(light, leak_of_side(light, side)).percent.value; };
-        const double traced = percent({paths.look({x, 0, distance}, lines, EyePaths::Counting::by_lens), paths.weights(), panel});
+        const double traced = percent({paths.look(eye, lines, EyePaths::Counting::by_lens), paths.weights(), panel});
         if (std::isnan(traced) || (worse && traced <= worse->percent.traced)) continue;
-        worse = BetweenEyes{{traced, percent({paraxial.look(x, lines), {luminance_weights}, panel})}, zone_mm};
+        worse = BetweenEyes{{traced, percent({paraxial.look(eye, lines), {luminance_weights}, panel})}, zone_mm};
     }
     return worse;
 }

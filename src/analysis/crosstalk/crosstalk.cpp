@@ -164,7 +164,9 @@ void curves_of_views(Eyes& eyes, double spread, Result& result) {
         for (std::size_t k = 0; k < shares.size(); ++k) shares[k][n] = share(light, first + double(k));
         theory[n] = share(eyes.theory_light(eyes.theory_at(places[n], Eyes::Lines::curve), eyes.shown), eyes.views.innermost());
     });
-    Curves curves("crosstalk_views", "Views that an eye sees", "eye position x, mm", "share of the light", {"x_mm", places});
+    const std::string axis = eyes.line == 1 ? "y" : "x";
+    Curves curves("crosstalk_views", "Views that an eye sees", "eye position " + axis + ", mm", "share of the light",
+                  {axis + "_mm", places});
     curves.table.name = "crosstalk_curves";
     for (std::size_t k = 0; k < shares.size(); ++k)
         curves.add(fmt::format("view {:+g}", first + double(k)), fmt::format("view_{:+g}_share", first + double(k)), shares[k]);
@@ -198,9 +200,13 @@ Result measure_crosstalk(Subject& s, Job& job) {
         "Crosstalk is 100 (leak - black) / (signal - black) as defined by Woods 2012; with the panel's black at 0 and additive "
         "light the definitions of IEC 62629-22-1 and IDMS give the same value. Luminance is averaged over the screen. A view is a "
         "strip, one panel pixel wide, of every elemental image. It consists of the whole pixels, or subpixels where content is "
-        "made for each, whose centres lie in the strip. Only whole views count; the leak is the light of all other views. For two "
-        "eyes, the left and right halves of every elemental image are intended for the two eyes of a head in front of the screen's "
-        "middle. Views lie side by side along the panel's rows, as the eyes do, also where lenses are rotated or strips slanted.");
+        "made for each, whose centres lie in the strip. Only whole views count; the leak is the light of all other views. " +
+        std::string(
+            eyes.line == 1
+                ? "Views lie one above the other, as the strips lie flat, and the eye moves up and down."
+                : "For two eyes, the left and right halves of every elemental image are intended for the two eyes of a head in "
+                  "front of the screen's middle. Views lie side by side along the panel's rows, as the eyes do, also where "
+                  "lenses are rotated or strips slanted."));
     result.remarks.push_back(
         fmt::format("Paraxially an eye receives light of {:.3g} views at once: lens apertures and the diffuser mix neighbouring "
                     "views wherever the central depth plane is not at the eye. A light field display shows depth in this way; a "

@@ -48,13 +48,14 @@ class Eyes {
   public:
     Eyes(Subject& s, Job& job)
         : distance_(checked_viewing_distance_mm(s)),
+          line(line_of_eyes(s.geometry().lattice)),
           eye_mm(distance_ - s.geometry().rear_principal_mm),
           shown(s.display(), s.geometry(), s.display().content.sampling),
           pixels_(s.display(), s.geometry(), ContentSampling::pixel),
           views(s, pixels_),
           parts(job, s.threads(), most_views + 1 + places_of_curves + heads + limits, crosstalk_steps(s)),
           paths_(s.display(), s.geometry()),
-          theory_(s.display(), s.geometry(), distance_),
+          theory_(s.display(), s.geometry()),
           more_(paths_.more_for({0, 0, distance_})),
           lines_(lines_a_set * (structured(s) ? 2 : 1) * more_, s.display().render.seed),
           fine_(fine_lines_a_set * (structured(s) ? 4 : 1) * more_, s.display().render.seed),
@@ -70,15 +71,17 @@ class Eyes {
     /// The lines of sight of a figure: few for curves, many for single figures (fine), and as many with other random numbers
     /// (anew).
     enum class Lines { curve, fine, anew };
-    /// Returns the points of the panel that an eye at x sees, mm to the right of the screen's middle.
-    MetPlaces at(double x, Lines lines = Lines::curve) const {
-        return paths_.look({x, 0, distance_}, lines == Lines::curve ? lines_ : lines == Lines::fine ? fine_ : anew_);
+    /// Returns the position of an eye at `aside` mm from the display's axis on the line of eyes, to the right or up.
+    Vec3d place(double aside) const { return line == 1 ? Vec3d{0, aside, distance_} : Vec3d{aside, 0, distance_}; }
+    /// Returns the points of the panel that this eye sees.
+    MetPlaces at(double aside, Lines lines = Lines::curve) const {
+        return paths_.look(place(aside), lines == Lines::curve ? lines_ : lines == Lines::fine ? fine_ : anew_);
     }
     /// Returns the light of these points by the slopes for which it is intended.
     MeantLight light(const MetPlaces& met, const MeantPanel& panel) const { return {met, paths_.weights(), panel}; }
     /// Returns at() by theory, with paraxial lenses and light of all channels together.
-    MetPlaces theory_at(double x, Lines lines) const {
-        return theory_.look(x, lines == Lines::curve ? of_theory_curve_ : of_theory_);
+    MetPlaces theory_at(double aside, Lines lines) const {
+        return theory_.look(place(aside), lines == Lines::curve ? of_theory_curve_ : of_theory_);
     }
     MeantLight theory_light(const MetPlaces& met, const MeantPanel& panel) const { return {met, {luminance_weights}, panel}; }
 
@@ -100,6 +103,7 @@ class Eyes {
     double distance_;
 
   public:
+    std::size_t line;                               // of eyes: 0 side by side, 1 one above the other, where strips lie flat
     double eye_mm;                                  // E, of the eye from H'
     MeantPanel shown;                               // the panel with content as described
     std::optional<ContentSampling> other_sampling;  // the sampling that is not described, on panels with subpixels

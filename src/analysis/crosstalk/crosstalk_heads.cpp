@@ -120,17 +120,13 @@ Interval head_range(Eyes& eyes, const Heads& all) {
     return known({ends[0], ends[1]}, 0);
 }
 
-/// Adds that crosstalk between the eyes is undefined, since they are not both in one viewing zone of the width `zone_mm`.
-void tell_apart(const Subject& s, Eyes& eyes, double zone_mm, Result& result) {
+/// Adds that crosstalk between the eyes is undefined, and why.
+void leave_out(const std::string& why, Eyes& eyes, Result& result) {
     eyes.parts.run(heads + limits, [](int) {});  // progress for the work that is left out
     Json& json = result.figures["between_eyes"];
     for (const char* name : {"left_eye_percent", "left_eye_percent_error", "left_eye_theory_percent", "right_eye_percent",
                              "right_eye_percent_error", "right_eye_theory_percent", "theory_percent", "head_within_10_percent_mm"})
         json[name] = Json();
-    const std::string why = fmt::format(
-        "the viewing zone is {:.4g} mm wide at the eyes' distance, and the eyes are {:.4g} mm apart: each eye would need "
-        "its own display",
-        zone_mm, s.options().eye_distance_mm);
     result.note("between_eyes", why);
     result.add_line({nan, why}, {.label = "Crosstalk between the eyes", .unit = "%"});
 }
@@ -154,8 +150,15 @@ void add_eyes(const BothEyes& found, const BothEyes& theory, const std::string& 
 void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
     // The viewing zone is E p'/g wide.
     const double apart = s.options().eye_distance_mm,
-                 zone_mm = eyes.eye_mm * image_along_row_mm(s.display(), s.geometry()) / s.geometry().gap_mm;
-    if (apart > zone_mm) return tell_apart(s, eyes, zone_mm, result);
+                 zone_mm = eyes.eye_mm * image_along_eyes_mm(s.display(), s.geometry()) / s.geometry().gap_mm;
+    if (eyes.line == 1)
+        return leave_out(fmt::format("{}: both eyes see the same", same_from_both_sides(s.geometry().lattice)), eyes, result);
+    if (apart > zone_mm)
+        return leave_out(
+            fmt::format("the viewing zone is {:.4g} mm wide at the eyes' distance, and the eyes are {:.4g} mm apart: each "
+                        "eye would need its own display",
+                        zone_mm, apart),
+            eyes, result);
     const Heads all = look_with_heads(eyes, apart);
     add_eyes(all.found[all.middle()], all.theory, "between_eyes.",
              eyes.other ? fmt::format("; {}", made_for(s.display().content.sampling)) : "", result);

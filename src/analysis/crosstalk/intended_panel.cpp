@@ -88,8 +88,8 @@ double MeantPanel::slope(const Point& point) const {
         pickup_.irregular() ? optics::Vec2<double>{line.mx + line.x * per_mm, line.my + line.y * per_mm}
                             : optics::Vec2<double>{(line.x * pickup_.scale - x) / gap_mm_, (line.y * pickup_.scale - y) / gap_mm_};
     if (!lattice.strips) return towards.x;
-    return optics::to_array(lattice, towards.x, towards.y).x /
-           lattice.cos_turn;  // along the rows, which cross the strips obliquely
+    // Along the line of eyes, which crosses the strips obliquely
+    return optics::to_array(lattice, towards.x, towards.y).x / across_strips(lattice);
 }
 
 }  // namespace lfdsim

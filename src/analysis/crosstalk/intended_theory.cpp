@@ -20,12 +20,11 @@ std::optional<optics::Vec2<double>> in_aperture(const Geometry& g, const Apertur
 
 }  // namespace
 
-MeantTheory::MeantTheory(const Display& d, const Geometry& g, double distance_mm)
-    : display_(d), geometry_(g), distance_mm_(distance_mm), aperture_(aperture_shape(d, g)) {}
+MeantTheory::MeantTheory(const Display& d, const Geometry& g) : display_(d), geometry_(g), aperture_(aperture_shape(d, g)) {}
 
-MetPlaces MeantTheory::look(double x_mm, const LineSets& sets) const {
+MetPlaces MeantTheory::look(const Vec3d& eye, const LineSets& sets) const {
     const Geometry& g = geometry_;
-    const ParaxialLines lines(display_, g, {x_mm, 0, distance_mm_});
+    const ParaxialLines lines(display_, g, eye);
     const PanelBehind panel(g);
     return {sets, 1, [&](const Choice& c, std::size_t) -> std::optional<MetPlaces::Met> {
                 // Lines are chosen by where they meet the lenses, so that none is lost between apertures, and count if the point
@@ -37,7 +36,7 @@ MetPlaces MeantTheory::look(double x_mm, const LineSets& sets) const {
                 if (!aim) return {};
                 const auto aimed = optics::to_array(g.lattice, aim->x - g.lattice.offset[0], aim->y - g.lattice.offset[1]);
                 if (std::abs(aimed.x) > 0.5 * g.array_width_mm || std::abs(aimed.y) > 0.5 * g.array_height_mm) return {};
-                if (!panel.meets({x_mm, 0, distance_mm_}, aim->x, aim->y)) return {};
+                if (!panel.meets(eye, aim->x, aim->y)) return {};
                 const auto line = lines.look(aim->x, aim->y, c[2], c[3]);
                 if (!line || !line->through || !lines.on_panel(line->seen)) return {};
                 const auto seen = optics::in_display(g.lattice, line->seen);

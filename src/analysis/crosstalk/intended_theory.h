@@ -9,16 +9,14 @@ namespace lfdsim {
 /// light. Sums over 2^17 of them are accurate to 0.002 of the light.
 class MeantTheory {
   public:
-    /// `distance_mm`: of the eye from the panel.
-    MeantTheory(const Display&, const Geometry&, double distance_mm);
+    MeantTheory(const Display&, const Geometry&);
 
-    /// Returns the points of the panel that the lines of sight of an eye at x meet.
-    MetPlaces look(double x_mm, const LineSets&) const;
+    /// Returns the points of the panel that the lines of sight of an eye meet.
+    MetPlaces look(const Vec3d& eye, const LineSets&) const;
 
   private:
     const Display& display_;
     const Geometry& geometry_;
-    double distance_mm_;
     ApertureShape aperture_;
 };
 

@@ -28,13 +28,13 @@ std::complex<double> alignment(const Panel& panel, const MeantPanel& pixels, dou
 
 }  // namespace
 
-double image_along_row_mm(const Display& d, const Geometry& g) {
-    return theory(d, g).along[0].elemental_pitch_mm / (g.lattice.strips ? g.lattice.cos_turn : 1);
+double image_along_eyes_mm(const Display& d, const Geometry& g) {
+    return theory(d, g).along[0].elemental_pitch_mm / across_share(g.lattice);
 }
 
 PixelViews::PixelViews(const Subject& s, const MeantPanel& pixels) : step_(s.display().panel.pixel_pitch_mm / s.geometry().gap_mm) {
     // Images are a whole number of pixels wide if images and pixels come apart by less than a pixel over the whole array.
-    const double across = image_along_row_mm(s.display(), s.geometry()) / s.display().panel.pixel_pitch_mm,
+    const double across = image_along_eyes_mm(s.display(), s.geometry()) / s.display().panel.pixel_pitch_mm,
                  nearest = std::round(across);
     const bool whole = nearest >= 1 && std::abs(across - nearest) * (s.geometry().lattice.count[0] - 1) < 1;
     const double width = std::min(whole ? nearest : across, most_views);

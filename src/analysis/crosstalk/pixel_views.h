@@ -35,6 +35,6 @@ class PixelViews {
 };
 
 /// Returns the width of an elemental image along a row of the panel, mm: p', over cos(slant) of strips.
-double image_along_row_mm(const Display&, const Geometry&);
+double image_along_eyes_mm(const Display&, const Geometry&);
 
 }  // namespace lfdsim

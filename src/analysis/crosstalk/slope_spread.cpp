@@ -34,13 +34,14 @@ SlopeSpread::SlopeSpread(const Subject& s, double eye, int axis)
     const Geometry& g = s.geometry();
     const double made_for = s.display().content.viewing_distance_mm - g.rear_principal_mm;
     lens_slopes_per_mm_ = 1 / made_for - 1 / eye;
-    if (g.lattice.strips) {  // along the panel's rows, which cross them obliquely
-        aperture_slopes_ /= g.lattice.cos_turn;
-        array_mm_ = std::min(array_mm_ / g.lattice.cos_turn, g.panel_width_mm);
+    const std::size_t line = line_of_eyes(g.lattice);
+    if (g.lattice.strips) {  // along the line of eyes, which crosses them obliquely
+        aperture_slopes_ /= across_share(g.lattice);
+        array_mm_ = std::min(array_mm_ / across_share(g.lattice), line == 0 ? g.panel_width_mm : g.panel_height_mm);
     }
     const auto& diffuser = s.display().diffuser;
     if (!diffuser) return;
-    half_rad_ = std::min(diffuser->angle_deg[std::size_t(axis)] * degree / 2, most_rad);
+    half_rad_ = std::min(diffuser->angle_deg[line == 1 ? 1 : axis_] * degree / 2, most_rad);
     profile_ = &figures_of(diffuser->profile);
     above_mm_ = diffuser->distance_mm;
     diffuser_scale_ = 1 - (*g.diffuser_z_mm - g.rear_principal_mm) / made_for;

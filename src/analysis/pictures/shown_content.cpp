@@ -20,23 +20,26 @@ std::vector<EyeBox> inverse_eyes(const Display& display, const Geometry& geometr
     // The zone by theory, which serves if the search finds none
     const double z = subject.viewing_distance_mm(), eye = z - geometry.rear_principal_mm;
     const ParaxialZone theory = paraxial_zone(subject, 0);
-    EyeBox box{{-eye * theory.half_slope(eye), 0, z}, {eye * theory.half_slope(eye), 0, z}};
+    const std::size_t axis = line_of_eyes(geometry.lattice);
+    EyeBox box{{0, 0, z}, {0, 0, z}};
+    box.low[axis] = -eye * theory.half_slope(eye);
+    box.high[axis] = eye * theory.half_slope(eye);
     if (!is_strips(display.array)) box.low[1] = -half_height_mm, box.high[1] = half_height_mm;
-    // The zone by tracing, horizontally: its limits at 1 % wrong rays, else at 50 %
+    // The zone by tracing, horizontally, or up and down where strips lie flat: its limits at 1 % wrong rays, else at 50 %
     Subject searched = subject;
     Quiet quiet(job);
     std::array<Interval, 2> limits_of_zone;
     try {
         ZoneSearch search(searched, quiet, zone_steps(searched));
-        limits_of_zone = search.sideways(0, eye * std::min(3 * theory.half_fov, std::tan(1.4))).limits;
+        limits_of_zone = search.sideways(axis, eye * std::min(3 * theory.half_fov, std::tan(1.4))).limits;
     } catch (const Stopped&) {
         return {};
     }
     for (const Interval& limits : limits_of_zone) {
         const double low = limits.low.place(), high = limits.high.place();
         if (limits.empty || !(low < high)) continue;
-        box.low[0] = low;
-        box.high[0] = high;
+        box.low[axis] = low;
+        box.high[axis] = high;
         break;
     }
     return {box};

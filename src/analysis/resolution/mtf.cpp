@@ -257,7 +257,7 @@ void check(const Subject& s, const std::vector<double>& depths, const std::vecto
 }  // namespace
 
 std::vector<double> mtf_angles_deg(const Subject& s) {
-    const double fov_deg = is_strips(s.display().array) ? s.theory().fov_horizontal_deg : s.theory(0).fov_deg;
+    const double fov_deg = is_strips(s.display().array) ? s.theory().fov_of_eyes_deg : s.theory(0).fov_deg;
     return {0, std::min(30., 0.25 * fov_deg), std::min(45., 0.4 * fov_deg)};
 }
 

@@ -72,7 +72,7 @@ ColourSpread spread_on_screen(const std::vector<BlockLight>& parts, const std::v
 /// Returns the eyes' angles within the field of view: eight for each view, from 33 to 257.
 std::vector<double> eyes_deg(const Subject& s) {
     const AxisTheory& t = s.theory(0);
-    const double half = std::min(80., 0.5 * (is_strips(s.display().array) ? s.theory().fov_horizontal_deg : t.fov_deg));
+    const double half = std::min(80., 0.5 * (is_strips(s.display().array) ? s.theory().fov_of_eyes_deg : t.fov_deg));
     const int each_side = std::clamp(int(std::ceil(4 * t.views)), 16, most_colour_angles / 2);
     std::vector<double> angles;
     for (int k = -each_side; k <= each_side; ++k) angles.push_back(half * k / each_side);

@@ -40,13 +40,16 @@ void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const st
     Plot plot{"zone", missing, "viewer position, degrees", "share of rays", {}};
     DataTable table{"zone", {}};
     const auto degrees = [&](double mm) { return std::atan(mm / eye) / degree; };
-    if (is_strips(s.display().array)) result.add("vertical", FigureValue::none("strips show the same from above and from below"));
-    for (std::size_t axis = 0; axis < std::size_t(imaging_axes(s.display().array)); ++axis) {
-        const std::string name = axis == 0 ? "horizontal" : "vertical";
+    const Lattice<double>& lattice = s.geometry().lattice;
+    const std::size_t line = line_of_eyes(lattice);
+    const auto name_of = [](std::size_t axis) { return axis == 0 ? "horizontal" : "vertical"; };
+    if (lattice.strips) result.add(name_of(1 - line), FigureValue::none(same_from_both_sides(lattice)));
+    for (std::size_t axis = line; axis < (lattice.strips ? line + 1 : 2); ++axis) {
+        const std::string name = name_of(axis);
         const Zone zone = search.sideways(axis, half[axis]);
         std::vector<double> angles;
         for (const double mm : zone.places) angles.push_back(degrees(mm));
-        const ParaxialZone zone_of = paraxial_zone(s, axis);
+        const ParaxialZone zone_of = paraxial_zone(s, lattice.strips ? 0 : axis);
         const double theory = degrees(eye * zone_of.half_slope(eye)), half_fov = degrees(eye * zone_of.half_fov);
         // Theory is of an image p' high; that of a hexagon has a corner above its middle, beyond that.
         const bool corner = axis == 1 && height_per_pitch(s.geometry()) > 1;
@@ -65,9 +68,9 @@ void add_sideways(Result& result, ZoneSearch& search, const Subject& s, const st
                         .theory = corner ? FigureValue() : std::vector{t == 0 ? 0 - theory : -half_fov, t == 0 ? theory : half_fov},
                         .remark = fmt::format("{:.4g} to {:.4g} mm", mm.low.at, mm.high.at)});
         }
-        if (axis == 0) {
+        if (axis == line) {
             table.columns = {{"place_mm", zone.places}, {"place_deg", angles}};
-            plot.marks = {{"theory, horizontal", 0 - theory}, {"theory, horizontal", theory}, {"1 %", 0.01, false}};
+            plot.marks = {{"theory, " + name, 0 - theory}, {"theory, " + name, theory}, {"1 %", 0.01, false}};
         }
         if (axis == 1 && differs_by_axis(s.display().array)) {
             table.columns.push_back({"vertical_place_mm", zone.places});

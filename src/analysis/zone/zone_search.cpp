@@ -81,8 +81,7 @@ std::vector<double> inverse_distances(const Subject& s, double eye, const Paraxi
 
 ParaxialZone paraxial_zone(const Subject& s, std::size_t axis) {
     const Lattice<double>& lattice = s.geometry().lattice;
-    // An eye that moves along x crosses the strips obliquely.
-    const double per = lattice.strips ? 1 / lattice.cos_turn : 1;
+    const double per = 1 / across_share(lattice);  // an eye crosses slanted strips obliquely
     const double lenses = lenses_across(s.geometry(), axis);
     return {per * s.theory().along[axis].elemental_pitch_mm / (2 * s.geometry().gap_mm),
             per * (lenses - 1) * lattice.pitch[axis] / 2, s.display().content.viewing_distance_mm - s.geometry().rear_principal_mm};

@@ -52,7 +52,8 @@ struct ViewsArguments {
         command.option("--of", "content|display", "Views of the content itself, or of what the simulated display shows")
             .initially("content")
             .shown();
-    Option count = command.option("--grid", "CxR", "Columns and rows of views in a folder; default 9x9, for strips 9x1");
+    Option count = command.option(
+        "--grid", "CxR", "Columns and rows of views in a folder; default 9x9, for strips 9x1 or, where they lie flat, 1x9");
     Option size = command.option("--view-size", "WxH", "Pixels of a view; default 480 wide");
     Option kind = command.option("--views-as", "png|exr|npy", "Files in the folder").initially("png").shown();
     Flag depth = command.flag("--depth", "Write a depth map for each view of the content, too");
@@ -100,7 +101,8 @@ Target target_of(const ViewsArguments& args, const Display& display) {
             if (quilt_name(path) || kind == ".jpg" || kind == ".jpeg" || kind == ".tif" || kind == ".tiff")
                 throw InputError(path.string(), "a quilt's name ends in .png, .exr or .npy; give one of these, or a folder");
         });
-        if (is_strips(display.array)) target.rows = 1;
+        if (is_strips(display.array))
+            (line_of_eyes(make_lattice(display.panel, display.array)) == 1 ? target.columns : target.rows) = 1;
         faults.of(args.count, [&] {
             const auto [columns, rows] = args.count.size();
             if (columns > most_views_a_side || rows > most_views_a_side || columns * rows > most_views)
@@ -155,7 +157,7 @@ ViewGrid grid_of(const ViewsWish& wish, Target& target, const ViewsArguments& ar
     all.rows = target.rows;
     if (target.columns > 1 || target.rows > 1) {
         const Theory of_display = theory(display, geometry);
-        const double strips_deg = of_display.fov_horizontal_deg, lenses_deg = of_display.along[0].fov_deg;
+        const double strips_deg = of_display.fov_of_eyes_deg, lenses_deg = of_display.along[0].fov_deg;
         const double fov = display.content.view_cone_deg.value_or(is_strips(display.array) ? strips_deg : lenses_deg);
         if (std::isfinite(fov) && fov > 0 && fov < 170) all.cone_deg = fov;
     }

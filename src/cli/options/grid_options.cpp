@@ -51,6 +51,11 @@ ViewsPlace views_place(const Display& display, const Geometry& geometry) {
                      geometry.content_depth_mm,
                      display.content.viewing_distance_mm,
                      display.content.view_cone_deg};
+    if (line_of_eyes(geometry.lattice) == 1) {  // eyes side by side see the same, wherever they are: no quilt is made for that
+        place.view_cone_deg.reset();
+        place.zone_width_mm = infinity;
+        return place;
+    }
     place.lens_mm = display.array.pitch_mm[0] / geometry.lattice.cos_turn;
     // W = (D' - z_H') p' / (g cos(alpha)): docs/model.md, "Grids of views".
     const double away = place.viewing_distance_mm - geometry.rear_principal_mm;
@@ -107,6 +112,9 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
             source_.name);
     // The panel, by the pick-up of the description.
     const ViewGrid& grid = views->field.grid();
+    if (line_of_eyes(geometry.lattice) == 1 && grid.rows == 1 && grid.columns > 1)
+        spdlog::warn("{}: its cameras are side by side, but {}: all eyes get the same view. Give a grid of more than one row",
+                     source_.name, same_from_both_sides(geometry.lattice));
     const bool inverse = display.content.pickup == PickupKind::inverse;
     PanelOfViews made{{}, "", grid_json(grid)};
     if (inverse) {

@@ -199,9 +199,9 @@ class Pickup {
     }
 
     /// Returns the line of a panel point under a strip: it lies in the plane of light of the slope m_x = (x'_c - x'_P)/g through
-    /// the strip's rear nodal line, and there goes to the viewers' eyes on the line y = 0, z = D' of the display. Along the strip
-    /// its light passes plane plates: m_y = (y'_E - y'_P)/l, with l the reduced thickness up to the vertex plane and the distance
-    /// from there to the eye.
+    /// the strip's rear nodal line, and there goes to the viewers' eyes on the line y = 0, z = D' of the display, or x = 0 where
+    /// strips lie flat (geometry/lattice.h). Along the strip its light passes plane plates: m_y = (y'_E - y'_P)/l, with l the
+    /// reduced thickness up to the vertex plane and the distance from there to the eye.
     template <class ShiftOf>
     NodalLine line_of_strip(double x, double y, double owner_x, const ShiftOf& shift_of) const {
         const optics::Cell<double> lens{number(owner_x, 0), 0};
@@ -216,12 +216,14 @@ class Pickup {
         Shift shift;
         const bool lit = shift_of(p.x - at_lens.front.x, 0., shift);
         const double mx = (at_lens.front.x - p.x) * at_lens.per_gap + shift.mx, centre = at_lens.rear.x + shift.x - mx * at_lens.up;
-        double my = -s / c * mx;
+        const bool flat = line_of_eyes(lattice_) == 1;
+        double my = flat ? c / s * mx : -s / c * mx;
         if (!std::isinf(viewer_)) {
-            // The eye E: where the plane of light crosses the display's line y = 0; from the array's centre, in the display's
-            // frame.
-            const double eye_x = (centre + mx * (viewer_ - z_rear) + s * lattice_.offset[1]) / c;
-            const auto eye = optics::to_array(lattice_, eye_x, -lattice_.offset[1]);
+            // The eye E: where the plane of light crosses the display's line y = 0 or x = 0; from the array's centre, in the
+            // display's frame.
+            const double at_eye = centre + mx * (viewer_ - z_rear);
+            const auto eye = flat ? optics::to_array(lattice_, -lattice_.offset[0], (at_eye + c * lattice_.offset[0]) / s)
+                                  : optics::to_array(lattice_, (at_eye + s * lattice_.offset[1]) / c, -lattice_.offset[1]);
             my = (eye.y - p.y) / (reduced_top_ + viewer_ - top_z_);
         }
         // The line in the plane of H': m_y applies to the reduced thickness below the vertex plane.

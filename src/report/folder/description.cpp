@@ -177,7 +177,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
         return gaps ? along(figure) : std::vector<double>(along(figure).size(), nan);
     };
     std::vector<double> views_elemental = along(&AxisTheory::elemental_pitch_mm);
-    for (double& views : views_elemental) views /= d.panel.pixel_pitch_mm * (g.lattice.strips ? g.lattice.cos_turn : 1);
+    for (double& views : views_elemental) views /= d.panel.pixel_pitch_mm * across_share(g.lattice);
     // Fields of view, lengths of a lens, and depth of field.
     std::vector<Figure> all = {
         {"fov_deg", along(&AxisTheory::fov_deg), "field of view of one lens, in which an eye may move", "2 atan(p / 2g)"},
@@ -185,10 +185,10 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
          "field of view of one lens through the layers on the panel, not paraxial",
          "Snell's law, from p'/2 on the panel to the axis at the lens", "a glass lens has aberrations; analyze fov includes them"},
         {"fov_horizontal_deg",
-         {t.fov_horizontal_deg},
+         {line_of_eyes(g.lattice) == 0 ? t.fov_of_eyes_deg : nan},
          "field of view of strips along the panel's rows",
          "2 atan(p / (2 g cos(slant)))",
-         "only strips have a slant"},
+         is_strips(d.array) ? same_from_both_sides(g.lattice) : "only strips have a slant"},
         {"fov_elemental_deg", along(&AxisTheory::fov_elemental_deg),
          g.lattice.strips ? "field of view of whole elemental images across the strips (along a row: lfdsim new --fov-deg)"
                           : "field of view of whole elemental images, as lfdsim new --fov-deg",
