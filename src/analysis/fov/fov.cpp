@@ -192,7 +192,7 @@ Result measure_fov(Subject& subject, Job& job) {
     Plot plot{"fov", "Likeness of the simulated view to the scene", "angle of the view, degrees", "SSIM", {}};
     Plot shares{"fov-share", "The scene's share in the view", "angle of the view, degrees", "covariance / variance", {}};
     DataTable table{"fov", {{"angle_deg", angles}}};
-    if (is_strips(display.array)) result.add("vertical", FigureValue::none(same_from_both_sides(subject.geometry().lattice)));
+    if (is_strips(display.array)) result.add("vertical", FigureValue::none("strips show the same to an eye that moves along them"));
     for (int axis = 0; axis < imaging_axes(display.array); ++axis) {
         const std::string name = axis == 0 ? "horizontal" : "vertical";
         const std::string way = is_strips(display.array) ? "across the strips" : name;  // the arc's direction

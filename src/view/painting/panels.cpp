@@ -54,6 +54,7 @@ Content pose_of(const Display& d, const Geometry& g) {
     const Content fresh;
     pose.model.clear();  // a source says it
     pose.depth_mm.reset();
+    pose.written_depth_mm.reset();
     pose.height_mm = g.content_height_mm;
     pose.viewing_distance_mm = fresh.viewing_distance_mm;
     pose.sampling = fresh.sampling;
