@@ -12,12 +12,8 @@ namespace lfdsim {
 /// The clear aperture of a paraxial lens, mm in the array's frame from the lens's axis: a round pupil, a cell, or the
 /// intersection of both (docs/model.md, "Pupil").
 struct ApertureShape {
-    enum class ApertureForm {
-        disk,
-        rectangle,
-        slit,
-        polygon
-    };  // polygon: another cell, or one whose corners a round pupil cuts off
+    /// A polygon is a cell of another form, or one whose corners a round pupil cuts off.
+    enum class ApertureForm { disk, rectangle, slit, polygon };
     using Corners = std::vector<std::array<double, 2>>;
 
     ApertureForm form;

@@ -114,7 +114,7 @@ def _budget(found: Tolerance, figure: str, percent: float) -> str:
 def _too_few(lines: pd.DataFrame) -> str:
     """Why known scales have no interval, where that is so."""
     unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna()
-    reason = "The uncertainty of an allowed scale is not known without two draws beyond the percentile: give more (alone, --alone)."
+    reason = "Fewer than two draws lie beyond the percentile, so the uncertainty of an allowed scale is not known; make more draws (option --alone)."
     return reason if unsure.any() else ""
 
 
