@@ -76,8 +76,8 @@ struct AxisTheory {
     double fov_deg;                    // 2 atan(p / 2g)
     double fov_exact_deg;              // of the ray from p'/2 to the axis at the principal point, by Snell; NaN for glass lenses
     double fov_elemental_deg;          // 2 atan(p' / 2g), p' the elemental pitch: field of view of whole elemental images
-    double views;                      // N = p / a, of strips along a row of the panel p / (a cos(slant))
-    double view_step_deg;              // FOV / N, of strips both along a row
+    double views;                      // N = p / a; of strips p over a pixel's width across them, along line_of_eyes()
+    double view_step_deg;              // FOV / N, of strips both along that line
     double viewing_zone_parallel_deg;  // whole screen, with elemental images of the pitch p
     double viewing_zone_deg;           // whole screen, with elemental images for the viewing distance, at the eye's distance
     double eyebox_mm;           // width of the region from which an eye sees the image that belongs to the middle lens: E p'/g

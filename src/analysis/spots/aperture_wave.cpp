@@ -96,7 +96,7 @@ Corners within_circle(const Corners& corners, double radius) {
 
 }  // namespace
 
-Corners cell_corners(const Lattice<double>& lattice, double scale) {
+Corners cell_polygon(const Lattice<double>& lattice, double scale) {
     const auto cell = optics::corners_of_cell(lattice);
     Corners corners;
     for (int k = 0; k < cell.count; ++k) corners.push_back({scale * cell.x[k], scale * cell.y[k]});
@@ -110,7 +110,7 @@ ApertureShape aperture_shape(const Display& d, const Geometry& g) {
     if (d.array.aperture == Aperture::circle) return {ApertureForm::disk, g.clear_aperture_mm};
     // A cell that the pupil contains, or that contains the pupil, is not cut.
     const std::array<double, 2> cell{pupil.cells * lens_pitch_mm(g, 0), pupil.cells * lens_pitch_mm(g, 1)};
-    const Corners corners = cell_corners(g.lattice, pupil.cells);
+    const Corners corners = cell_polygon(g.lattice, pupil.cells);
     if (pupil.radius_mm <= 0.5 * std::min(cell[0], cell[1])) return {ApertureForm::disk, g.clear_aperture_mm};
     if (pupil.radius_mm >= pupil.cells * outer_radius_mm(d, g) * (1 - 1e-12)) {
         if (corners.size() == 4) return {ApertureForm::rectangle, cell};

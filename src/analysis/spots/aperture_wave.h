@@ -45,7 +45,7 @@ struct ApertureShape {
 };
 
 /// Returns the corners of a cell of which all lengths are multiplied by `scale`, counter-clockwise from the lower right one.
-ApertureShape::Corners cell_corners(const Lattice<double>&, double scale = 1);
+ApertureShape::Corners cell_polygon(const Lattice<double>&, double scale = 1);
 
 /// Returns the clear aperture of a display's lenses.
 ApertureShape aperture_shape(const Display&, const Geometry&);

@@ -17,7 +17,7 @@ using Corners = ApertureShape::Corners;  // mm from a lens's axis, in the array'
 /// Returns the corners of a cell; of strips over the length that is drawn.
 Corners cell_of(Lattice<double> l, double length_mm) {
     if (l.strips) l.half_pitch[1] = 0.5 * length_mm;
-    return cell_corners(l);
+    return cell_polygon(l);
 }
 
 }  // namespace

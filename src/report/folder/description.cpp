@@ -176,6 +176,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
     const auto closing = [&](double AxisTheory::*figure) {
         return gaps ? along(figure) : std::vector<double>(along(figure).size(), nan);
     };
+    const bool flat = line_of_eyes(g.lattice) == 1;  // strips' fields of view and views are counted along columns then
     std::vector<double> views_elemental = along(&AxisTheory::elemental_pitch_mm);
     for (double& views : views_elemental) views /= d.panel.pixel_pitch_mm * across_share(g.lattice);
     // Fields of view, lengths of a lens, and depth of field.
@@ -185,7 +186,7 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
          "field of view of one lens through the layers on the panel, not paraxial",
          "Snell's law, from p'/2 on the panel to the axis at the lens", "a glass lens has aberrations; analyze fov includes them"},
         {"fov_horizontal_deg",
-         {line_of_eyes(g.lattice) == 0 ? t.fov_of_eyes_deg : nan},
+         {flat ? nan : t.fov_of_eyes_deg},
          "field of view of strips along the panel's rows",
          "2 atan(p / (2 g cos(slant)))",
          is_strips(d.array) ? same_from_both_sides(g.lattice) : "only strips have a slant"},
@@ -221,11 +222,12 @@ std::vector<Figure> figures(const Display& d, const Geometry& g, const Theory& t
     for (Figure& f : sharpness(d, g, t)) all.push_back(std::move(f));
     // Views, viewing zones, resolution, and gaps between lenses.
     const std::vector<Figure> rest{
-        {"views", along(&AxisTheory::views), "N, views across", "p / a; for strips, along a row, p / (a cos(slant))"},
+        {"views", along(&AxisTheory::views), "N, views across",
+         flat ? "p / (a |sin(slant)|), along a column" : "p / a; for strips, along a row, p / (a cos(slant))"},
         {"views_elemental", views_elemental, "views of whole elemental images: panel pixels across each",
-         "p' / a; for strips, along a row, p' / (a cos(slant))"},
+         flat ? "p' / (a |sin(slant)|), along a column" : "p' / a; for strips, along a row, p' / (a cos(slant))"},
         {"view_step_deg", along(&AxisTheory::view_step_deg), "angle from view to view",
-         "field of view / N, of strips both along a row"},
+         flat ? "field of view / N, both along a column" : "field of view / N, of strips both along a row"},
         {"viewing_zone_parallel_deg", along(&AxisTheory::viewing_zone_parallel_deg),
          "angle within which the whole screen is seen, with elemental images at lens pitch",
          "2 atan(p / 2g - (m - 1) p / 2E), m lenses across, the eye at E", inside},
