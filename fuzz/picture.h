@@ -36,6 +36,7 @@ inline int fuzz_picture(
     });
     or_refused([&] { holds_codes(file); });
     or_refused([&] { read_metadata(file); });
+    or_refused([&] { other_colours(file, Encoding::srgb); });
     or_refused([&] {
         if (const auto layer = read_layer(file, "error")) check(*layer);
     });

@@ -4,22 +4,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <zlib.h>
 
 namespace lfdsim {
 namespace {
 
-std::string big_endian(std::uint32_t value) {
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += char(value >> shift);
-    return bytes;
-}
-
-std::string chunk(const std::string& name, const std::string& data) {
-    const std::string body = name + data;
-    const uLong crc = crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size()));
-    return big_endian(std::uint32_t(data.size())) + body + big_endian(std::uint32_t(crc));
-}
+using test::big_endian, test::chunk;
 
 /// A sound 8-bit RGB header, then an empty IDAT.
 std::string png_claiming(std::uint32_t width, std::uint32_t height) {

@@ -1,12 +1,27 @@
 // PNG files of all the kinds that other programs write, made with libpng.
 #pragma once
 #include <png.h>
+#include <zlib.h>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace lfdsim::test {
+
+inline std::string big_endian(std::uint32_t value, int bytes = 4) {
+    std::string text;
+    for (int k = bytes - 1; k >= 0; --k) text += char(value >> (8 * k));
+    return text;
+}
+
+/// Returns a chunk of a PNG file with its length and sum.
+inline std::string chunk(const std::string& name, const std::string& data) {
+    const std::string body = name + data;
+    const uLong crc = crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size()));
+    return big_endian(std::uint32_t(data.size())) + body + big_endian(std::uint32_t(crc));
+}
 
 struct ForeignPng {
     png_uint_32 width, height;

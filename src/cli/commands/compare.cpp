@@ -40,6 +40,7 @@ void run(const CompareArguments& args) {
         faults.of([&] {
             check_input(argument, path);
             image = read_image(path, encoding);
+            warn_of_colours(path, encoding);
             warn_above_white(path, image);
         });
     };

@@ -82,6 +82,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     // The files: faults of both are reported together.
     faults.of([&] {
         view = read_image(view_path, Encoding::srgb);
+        warn_of_colours(view_path, Encoding::srgb);
         warn_above_white(view_path, view);
         const Metadata about = read_metadata(view_path);
         if (about.count(incomplete_mark))
@@ -91,6 +92,7 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     });
     faults.of([&] {
         photo.image = read_image(photo_path, photo.encoding);
+        warn_of_colours(photo_path, photo.encoding);
         warn_above_white(photo_path, photo.image);
         photo.codes = holds_codes(photo_path);
         check_near("--corners", photo.corners, photo_path, photo.image.width, photo.image.height, 0.5);

@@ -4,6 +4,7 @@
 #include "cli/output/output.h"
 #include "cli/program/arguments.h"
 #include "cli/program/commands.h"
+#include "cli/program/input_files.h"
 #include "engine/devices/memory.h"
 #include "image/formats/image_file.h"
 #include "image/scaled.h"
@@ -47,6 +48,7 @@ void run(const SheetArguments& args) {
     for (const std::string& path : images)
         faults.of([&] {
             const Image image = read_image(path, Encoding::srgb);
+            warn_of_colours(path, Encoding::srgb);
             const double height = std::max(1.0, std::round(double(width) * image.height / image.width));
             require_memory(path, fmt::format("a cell of {} x {:.0f} pixels", width, height), double(width) * height * 12);
             cells.push_back(scaled(image, int(width), int(height)));

@@ -101,6 +101,8 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
     std::optional<ReadViews> views = read_views(source_, wish_, views_place(display, geometry), progress);
     progress.end();
     if (!views) end_interrupted();
+    for (const std::filesystem::path& picture : source_.pictures)  // they are of one camera: one warning says it
+        if (warn_of_colours(picture.string(), Encoding::srgb)) break;
     for (const std::string& note : views->notes) spdlog::warn("{}: {}", source_.name, note);
     if (views->doubt.against_depth)
         spdlog::warn("{}: near points of its depth map move from view to view as far points should: the views are pseudoscopic{}",

@@ -22,6 +22,7 @@ bool PanelImageOption::warn(const Display& display) const {
     if (incomplete)
         spdlog::warn("{}: is marked incomplete: the run that made it was interrupted; its last words said what it contains",
                      path());
+    warn_of_colours(path(), display.panel.encoding);
     warn_if_for_another(path(), about, display);
     return incomplete;
 }

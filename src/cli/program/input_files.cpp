@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "image/compare/above_white.h"
+#include "image/formats/image_file.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -37,6 +38,12 @@ void refuse_input(const std::filesystem::path& output) {
 void warn_above_white(const std::string& path, const Image& image) {
     const std::string doubt = above_white(image.rgb.data(), std::int64_t(image.width) * image.height, 3, LightOf::picture);
     if (!doubt.empty()) spdlog::warn("{}: {}", path, doubt);
+}
+
+bool warn_of_colours(const std::string& path, Encoding encoding) {
+    const std::string colours = other_colours(path, encoding);
+    if (!colours.empty()) spdlog::warn("{}: {}", path, colours);
+    return !colours.empty();
 }
 
 }  // namespace lfdsim::cli

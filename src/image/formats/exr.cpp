@@ -19,6 +19,7 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
@@ -100,8 +101,7 @@ double pixel_bytes(const Imf::ChannelList& channels) {
 /// Refuses windows that are out of proportion to the file.
 void check_windows(const InputFile& file, const PixelWindow& data, const PixelWindow& display, const Imf::Header& header) {
     file.check_size(data.columns, data.rows, most_packed(header.compression()) / pixel_bytes(header.channels()));
-    // Parts of the frame without data are black and take no bytes, so a small file may claim a large frame:
-    // up to 2^25 pixels (7680 x 4320 are fewer) or 64 times the data.
+    // Black parts of the frame take no bytes, so a small file may claim 2^25 pixels (7680 x 4320 are fewer) or 64 times the data.
     const double frame = double(display.columns) * double(display.rows);
     if (frame >= 0x1p31 || frame > std::max(0x1p25, 64.0 * double(data.columns) * double(data.rows)))
         file.refuse(fmt::format("is too large: its display window is {} x {} pixels, its data {} x {}", display.columns,
@@ -301,15 +301,20 @@ Imf::Header checked_header(const InputFile& file) {
     return header;
 }
 
-[[noreturn]] void refuse(const InputFile& file, const Iex::BaseExc& error) {
-    file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
+/// Returns what `work` makes of the header. OpenEXR's errors, those of `work` too, refuse the file.
+template <class Work>
+auto of_header(const InputFile& file, const Work& work) {
+    start_library();
+    try {
+        return work(checked_header(file));
+    } catch (const Iex::BaseExc& error) {
+        file.refuse(fmt::format("is damaged or not an EXR file: {}", error.what()));
+    }
 }
 
 /// Reads three channels. All of them must be there; where they are not `needed`, a file with none of them is left unread.
 void read_channels(const InputFile& file, const Names& names, bool needed, const Allocate& allocate) {
-    start_library();
-    try {
-        const Imf::Header header = checked_header(file);
+    of_header(file, [&](const Imf::Header& header) {
         const Imf::ChannelList& channels = header.channels();
         if (!needed && std::none_of(names.begin(), names.end(), [&](const auto& name) { return channels.findChannel(name); }))
             return;
@@ -319,9 +324,7 @@ void read_channels(const InputFile& file, const Names& names, bool needed, const
         const PixelWindow data(header.dataWindow()), display(header.displayWindow());
         Imf::InputFile exr(file.name().c_str(), Imf::globalThreadCount());
         read_rows(file, exr, names, data, display, allocate(display.columns, display.rows));
-    } catch (const Iex::BaseExc& error) {
-        refuse(file, error);
-    }
+    });
 }
 
 /// Adds a picture's channels to a header and a frame buffer; the picture must outlive the writing.
@@ -353,17 +356,21 @@ void read_exr_layer(const InputFile& file, const std::string& layer, const Alloc
 }
 
 Metadata read_exr_metadata(const InputFile& file) {
-    start_library();
-    try {
-        const Imf::Header header = checked_header(file);
+    return of_header(file, [](const Imf::Header& header) {
         Metadata metadata;
         for (auto a = header.begin(); a != header.end(); ++a)
             if (const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
                 metadata[a.name()] = text->value();
         return metadata;
-    } catch (const Iex::BaseExc& error) {
-        refuse(file, error);
-    }
+    });
+}
+
+StatedColours read_exr_colours(const InputFile& file) {
+    return of_header(file, [](const Imf::Header& header) -> StatedColours {
+        if (!Imf::hasChromaticities(header)) return {};
+        const auto& [red, green, blue, white] = Imf::chromaticities(header);
+        return {"chromaticities", are_srgb_primaries({red.x, red.y, green.x, green.y, blue.x, blue.y, white.x, white.y})};
+    });
 }
 
 void write_exr(Output& file, const Image& image, const WriteOptions& options, Job& job) {

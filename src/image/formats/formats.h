@@ -9,8 +9,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <string>
 
 namespace lfdsim::detail {
 
@@ -41,7 +44,27 @@ void read_npy(const InputFile&, Encoding, const Allocate&);
 bool npy_holds_codes(const InputFile&);
 void read_pfm(const InputFile&, const Allocate&);
 
+/// The light, relative to white, of a code value that is half the greatest, by the curve of sRGB.
+constexpr double srgb_mid_gray = 0.2140;
+
+/// What a file states of its colours; those of sRGB where it states nothing.
+struct StatedColours {
+    std::string name;  // "the ICC profile "Display P3""
+    bool srgb_primaries = true;
+    double mid_gray = srgb_mid_gray;  // light of half the greatest code value; NaN if unknown
+};
+
+StatedColours colours_of_profile(std::span<const std::uint8_t> icc_bytes);
+/// Whether x and y of red, green, blue and white are those of sRGB to 0.01.
+bool are_srgb_primaries(const std::array<double, 8>& xy);
+/// Returns how the stated colours differ from sRGB and how they are read, or nothing. The curve does not count where codes are read
+/// as linear light.
+std::string not_srgb(const StatedColours&, Encoding);
+
 // These read the header alone, and throw like the readers.
+StatedColours read_png_colours(const InputFile&);
+StatedColours read_jpeg_colours(const InputFile&);
+StatedColours read_exr_colours(const InputFile&);
 Metadata read_png_metadata(const InputFile&);
 Metadata read_exr_metadata(const InputFile&);
 

@@ -227,6 +227,16 @@ Metadata read_metadata(const fs::path& path) {
     });
 }
 
+std::string other_colours(const fs::path& path, Encoding encoding) {
+    const Format format = format_to_read(path);
+    const InputFile file(path);
+    return within_memory(file, [&] {
+        if (format == Format::png) return not_srgb(read_png_colours(file), encoding);
+        if (format == Format::jpeg) return not_srgb(read_jpeg_colours(file), encoding);
+        return format == Format::exr ? not_srgb(read_exr_colours(file), encoding) : std::string();
+    });
+}
+
 bool holds_codes(const fs::path& path) {
     const Format format = format_to_read(path);
     if (format == Format::npy) return npy_holds_codes(InputFile(path));

@@ -71,6 +71,11 @@ Texels read_panel_image(const std::filesystem::path& path, Encoding encoding, st
 /// like read_image().
 Metadata read_metadata(const std::filesystem::path& path);
 
+/// Returns what to warn of where a file states colours other than sRGB (ICC profile, cICP, gamma, primaries), which are read as
+/// sRGB; an empty text where it states none or sRGB. Codes that are read as Encoding::linear may have any curve. Only the file's
+/// header is read. Throws like read_image().
+std::string other_colours(const std::filesystem::path& path, Encoding encoding);
+
 /// Whether a file has code values, which are limited by white; .exr, .pfm and .npy of floats have light without a limit. Throws
 /// InputError for an unknown extension, and of .npy for an unreadable header.
 bool holds_codes(const std::filesystem::path& path);

@@ -3,6 +3,8 @@
 #include "image/formats/upright.h"
 
 #include <fmt/format.h>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include <jpeglib.h>  // wants cstdio before it
@@ -59,6 +61,17 @@ struct JpegReader {
 };
 
 }  // namespace
+
+StatedColours read_jpeg_colours(const InputFile& file) {
+    JpegReader reader(file);
+    jpeg_save_markers(&reader.jpeg, JPEG_APP0 + 2, 0xffff);  // ICC profiles come in parts of at most 64 KiB
+    jpeg_read_header(&reader.jpeg, TRUE);
+    JOCTET* bytes = nullptr;
+    unsigned size = 0;
+    if (!jpeg_read_icc_profile(&reader.jpeg, &bytes, &size)) return {};
+    const std::unique_ptr<JOCTET, decltype(&std::free)> owner(bytes, &std::free);
+    return colours_of_profile({bytes, size});
+}
 
 void read_jpeg(const InputFile& file, Encoding encoding, const Allocate& allocate) {
     const int orientation = read_orientation(file.stream());  // before libjpeg begins to read

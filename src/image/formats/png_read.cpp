@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -139,6 +140,42 @@ Metadata read_png_metadata(const InputFile& file) {
     Metadata metadata;
     for (int i = 0; i < count; ++i) metadata[texts[i].key] = texts[i].text;
     return metadata;
+}
+
+StatedColours read_png_colours(const InputFile& file) {
+    check_signature(file);
+    check_chunks(file);
+    const PngReader reader(file);
+    // Texts are not used. Older versions of libpng do not know cICP; of such chunks one is kept (3 means one).
+    png_set_chunk_cache_max(reader.png, 3);
+    png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, reinterpret_cast<png_const_bytep>("tEXt\0zTXt\0iTXt"), 3);
+    png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_ALWAYS, reinterpret_cast<png_const_bytep>("cICP"), 1);
+    png_read_info(reader.png, reader.info);
+    // The first of these counts (PNG, third edition, 4.3): cICP, iCCP, sRGB, gAMA with cHRM.
+    png_unknown_chunkp chunks = nullptr;
+    if (png_get_unknown_chunks(reader.png, reader.info, &chunks) > 0 && chunks[0].size >= 2) {
+        const int primaries = chunks[0].data[0], curve = chunks[0].data[1];  // ITU-T H.273: 1 and 13 are those of sRGB
+        return {fmt::format("cICP {}, {}", primaries, curve), primaries == 1,
+                curve == 13 ? srgb_mid_gray : std::numeric_limits<double>::quiet_NaN()};
+    }
+    png_charp name = nullptr;
+    png_bytep profile = nullptr;
+    png_uint_32 bytes = 0;
+    int compression = 0, intent = 0;
+    if (png_get_iCCP(reader.png, reader.info, &name, &compression, &profile, &bytes) != 0)
+        return colours_of_profile({profile, bytes});
+    StatedColours stated;
+    if (png_get_sRGB(reader.png, reader.info, &intent) != 0) return stated;
+    if (double gamma = 0; png_get_gAMA(reader.png, reader.info, &gamma) != 0) {
+        stated.name = fmt::format("gAMA {:g}", gamma);
+        stated.mid_gray = std::pow(0.5, 1 / gamma);
+    }
+    std::array<double, 8> xy{};
+    if (png_get_cHRM(reader.png, reader.info, &xy[6], &xy[7], &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5]) != 0) {
+        stated.name += stated.name.empty() ? "cHRM" : " and cHRM";
+        stated.srgb_primaries = are_srgb_primaries(xy);
+    }
+    return stated;
 }
 
 void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate) {
