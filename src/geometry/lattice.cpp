@@ -12,9 +12,9 @@ namespace {
 constexpr double endless_mm = 1e9;  // beyond every panel; its square is a float
 
 /// Returns half the width and height of the panel's bounding box in the array's frame, mm.
-std::array<double, 2> half_panel_mm(const Panel& panel, const LensArray& array) {
+std::array<double, 2> half_panel_mm(const Panel& panel, double turn_deg) {
     const double w = double(panel.pixels[0]) * panel.pixel_pitch_mm / 2, h = double(panel.pixels[1]) * panel.pixel_pitch_mm / 2,
-                 c = std::abs(std::cos(array.turn_deg() * degree)), s = std::abs(std::sin(array.turn_deg() * degree));
+                 c = std::abs(std::cos(turn_deg * degree)), s = std::abs(std::sin(turn_deg * degree));
     return {w * c + h * s, w * s + h * c};
 }
 
@@ -23,7 +23,7 @@ std::array<double, 2> half_panel_mm(const Panel& panel, const LensArray& array) 
 std::array<std::int64_t, 2> covering_count(const Panel& panel, const LensArray& array) {
     const double c = std::cos(array.turn_deg() * degree), s = std::sin(array.turn_deg() * degree);
     const auto [x, y] = array.offset_mm;
-    const auto half = half_panel_mm(panel, array);
+    const auto half = half_panel_mm(panel, array.turn_deg());
     const double half_x = half[0] + std::abs(c * x + s * y), half_y = half[1] + std::abs(c * y - s * x);
     const auto [px, py] = spacing_mm(panel, array);
     // A panel that ends within a billionth of a cell beyond a border is covered. NaN gives 1.
@@ -43,9 +43,11 @@ bool differs_by_axis(const LensArray& array) {
     return array.lattice == LatticeKind::rectangle || array.lattice == LatticeKind::brick;
 }
 
+double strip_length_mm(const Panel& panel, double turn_deg) { return 2 * half_panel_mm(panel, turn_deg)[1]; }
+
 std::array<double, 2> spacing_mm(const Panel& panel, const LensArray& array) {
     const double p = array.pitch_mm[0];
-    if (is_strips(array)) return {p, 2 * half_panel_mm(panel, array)[1]};
+    if (is_strips(array)) return {p, strip_length_mm(panel, array.turn_deg())};
     return {p, array.lattice == LatticeKind::hexagon ? p * std::sqrt(3) / 2 : array.pitch_mm[1]};
 }
 

@@ -37,6 +37,9 @@ inline int imaging_axes(const LensArray& array) { return is_strips(array) ? 1 : 
 /// Returns whether figures that depend on the pitch differ between the array's x' and y', and are reported for each.
 bool differs_by_axis(const LensArray&);
 
+/// Returns the length of strips rotated by `turn_deg`, mm: as long as the panel reaches along them.
+double strip_length_mm(const Panel&, double turn_deg);
+
 /// Returns the distance between neighbouring lenses along x' and between rows along y', mm; strips form one row, whose "pitch"
 /// along y' is their length over the panel.
 std::array<double, 2> spacing_mm(const Panel&, const LensArray&);

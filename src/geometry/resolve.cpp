@@ -121,6 +121,7 @@ void misplace_array(const Display& d, Geometry& g) {
         g.turn_deg += e.rotation_deg;
         l.cos_turn = std::cos(g.turn_deg * degree);
         l.sin_turn = std::sin(g.turn_deg * degree);
+        if (l.strips) g.array_height_mm = l.pitch[1] = strip_length_mm(d.panel, g.turn_deg);
     }
     if (e.pitch_ppm == 0) return;
     const double scale = pitch_scale(e);
@@ -130,7 +131,8 @@ void misplace_array(const Display& d, Geometry& g) {
         l.half_pitch[k] = l.pitch[k] / 2;
     }
     if (PlacedSurface& lens = g.surfaces.front(); d.array.aperture == Aperture::cell && lens.form == SurfaceForm::thin) {
-        lens.semi_aperture_mm *= scale;  // an ideal lens that fills its cell grows with it
+        lens.semi_aperture_mm = g.glass_radius_mm =
+            scale * lens.semi_aperture_mm;  // an ideal lens that fills its cell grows with it
         g.pupil = pupil(g.surfaces, d.lens.stop_radius_mm, g.stop_z_mm);
     }
     clear_apertures(d.array, g);

@@ -141,6 +141,11 @@ TEST(Advice, ForEachFault) {
          [](Display& d) {
              d.array.offset_mm = {100, 0};
          }},
+        {"moved by 100, 0 mm and turned by 0 degrees with its errors", "errors.shift_mm=[0, 0]", tablet(),
+         [](Display& d) {
+             d.errors.shift_mm = {100, 0};
+             d.content.made_for = MadeFor::built;
+         }},
         {"turned by 60 degrees", "array.rotation_deg=0", tablet(), [](Display& d) { d.array.rotation_deg = 60; }},
         {"elemental images for a viewer at 25 mm", "array.count=[2", tablet(),
          [](Display& d) { d.diffuser.reset(), d.content.viewing_distance_mm = d.camera.position_mm[2] = 25; }},

@@ -133,5 +133,48 @@ TEST(Resolve, ContentDepthCountsFromTheVertexPlane) {
     EXPECT_NEAR(g.content_depth_mm, theory(d, g).central_depth_mm - T / n, 1e-9);
 }
 
+// An array that is rotated, moved and at another gap by its errors is the array that is described so (docs/model.md, "Errors"), on
+// every lattice: strips are as long as the panel reaches along them.
+TEST(Resolve, ErrorsOfTheWholeArrayAreThoseOfADescription) {
+    for (const LatticeKind lattice :
+         {LatticeKind::square, LatticeKind::rectangle, LatticeKind::hexagon, LatticeKind::brick, LatticeKind::strips}) {
+        Display errors = example_ideal();
+        errors.array.lattice = lattice;
+        errors.array.count = {43, lattice == LatticeKind::strips ? 1 : 24};
+        errors.array.rotation_deg = 3;
+        Display described = errors;
+        errors.errors.shift_mm = {0.5, -0.25};
+        errors.errors.gap_mm = 0.125;
+        errors.errors.rotation_deg = 12;
+        described.array.offset_mm = {0.5, -0.25};
+        described.array.gap_mm = *described.array.gap_mm + 0.125;
+        described.array.rotation_deg = 15;
+        const Geometry a = resolve(errors), b = resolve(described);
+        EXPECT_EQ(a.array_width_mm, b.array_width_mm) << int(lattice);
+        EXPECT_EQ(a.array_height_mm, b.array_height_mm) << int(lattice);
+        EXPECT_EQ(a.turn_deg, b.turn_deg);
+        EXPECT_EQ(a.gap_mm, b.gap_mm);
+        EXPECT_EQ(a.vertex_plane_mm, b.vertex_plane_mm);
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_EQ(a.lattice.pitch[k], b.lattice.pitch[k]) << int(lattice);
+            EXPECT_EQ(a.lattice.offset[k], b.lattice.offset[k]);
+            EXPECT_EQ(a.lattice.count[k], b.lattice.count[k]);
+            EXPECT_EQ(a.clear_aperture_mm[k], b.clear_aperture_mm[k]);
+        }
+    }
+}
+
+// An ideal lens that fills its cell grows with the pitch, as an error or described.
+TEST(Resolve, IdealLensesGrowWithTheirCells) {
+    Display errors = example_ideal();
+    errors.array.aperture = Aperture::cell;
+    Display described = errors;
+    errors.errors.pitch_ppm = 20000;
+    described.array.pitch_mm = 12 * 1.02;
+    const Geometry a = resolve(errors), b = resolve(described);
+    EXPECT_NEAR(a.glass_radius_mm, b.glass_radius_mm, 1e-12);
+    EXPECT_NEAR(a.clear_aperture_mm[0], b.clear_aperture_mm[0], 1e-12);
+}
+
 }  // namespace
 }  // namespace lfdsim
