@@ -159,11 +159,13 @@ def theory(d):
     """The paraxial figures that `lfdsim check --json` names, under the same names; None where there is no such figure."""
     width, pixel, g = d.cell.width, d.panel.pixel_pitch_mm, d.gap
     slant = turned_by(d) if d.strips else 0.0
+    lie_flat = abs(np.cos(slant)) < np.cos(np.radians(75))  # eyes of such strips are one above the other
+    across = abs(np.sin(slant) if lie_flat else np.cos(slant))
     whole_field = lambda half: np.degrees(2 * np.arctan(half / g))
-    figures = {"gap_mm": g, "fov_deg": by_axis(d, whole_field(width / 2)), "views": by_axis(d, width / (pixel * np.cos(slant))),
+    figures = {"gap_mm": g, "fov_deg": by_axis(d, whole_field(width / 2)), "views": by_axis(d, width / (pixel * across)),
                "fov_exact_deg": by_axis(d, exact_field(d)) if d.ideal else None}
     if d.strips:
-        figures["fov_horizontal_deg"] = float(whole_field(width[0] / (2 * np.cos(slant))))
+        figures["fov_horizontal_deg"] = None if lie_flat else float(whole_field(width[0] / (2 * across)))
     if not d.power and d.ideal:
         return {**figures, "focal_length_mm": None, "central_depth_mm": None, "pixel_image_mm": None, "depth_of_field_mm": None}
     depth = 1 / (1 / d.paraxial.f - 1 / g)  # 1/L = 1/f - 1/g
