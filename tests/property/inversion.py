@@ -2,8 +2,9 @@
 """Content by inversion on displays drawn at random, held against traced content: inversion.py LFDSIM_PROGRAM [--displays N] [--first N].
 
 A display shows two pictures of a wall, one behind its lenses and one before them. Its panel is made by the traced and by the inverse pick-up; eyes drawn
-at random in the box that the program reports, which it has neither fitted nor held out, see both by point samples of another seed. No eye may be served
-worse than by traced content by more than 0.75 dB of PSNR, and the mean over the displays must be better. Prints a line for each display.
+at random in the box that the program reports, which it has neither fitted nor held out, see both by point samples of another seed. Light is
+relative to what the program says of a white panel. No display may serve its eyes worse than by traced content by more than 0.1 dB of PSNR in the mean, none of
+them by more than 1.1 dB, and the mean over the displays must be better. Prints a line for each display.
 """
 import argparse
 import json
@@ -22,7 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
 import inverse as views  # noqa: E402  (codes)
 
-EYES, SAMPLES, WORST_DB = 4, 256, 0.75
+EYES, SAMPLES, WORST_MEAN_DB, WORST_DB = 4, 256, 0.1, 1.1
 
 
 def shares(white, gain, pitch):
@@ -97,10 +98,7 @@ class Inversions:
             return self.picture("render", path, *camera(eye), *shown, "--estimator", "point", "--samples", SAMPLES, "--seed", 9)
 
         whites = [view(eye, "--pattern", "white") for eye in places]
-        light = np.concatenate([w.mean(axis=2).ravel() for w in whites])
-        if not light.max() > 0:
-            return report, [], []
-        gain = np.median(light[light > 0.3 * light.max()])
+        gain = report["white_light"]  # a median over this test's elements would count those that are mostly gaps
         psnr = {"traced": [], "inverse": []}
         pitch = math.ceil(columns * min(np.max(description["array"]["pitch_mm"]) / (1.1 * width), 1))
         for eye, white in zip(places, whites):
@@ -135,7 +133,7 @@ def main():
             continue
         gain = np.array(inverse) - np.array(traced)
         gains.append(gain.mean())
-        held = gain.min() >= -WORST_DB
+        held = gain.mean() >= -WORST_MEAN_DB and gain.min() >= -WORST_DB
         failed += not held
         print(f"{number:5} traced {np.mean(traced):6.2f} dB, gain {gain.mean():+6.2f}, least {gain.min():+6.2f} dB{'' if held else ' FAILED'}; the program says "
               f"{report['held_out_traced']['psnr_db']:.2f} and {report['held_out']['psnr_db']:.2f}; {report['places']} places, {report['rays_per_element']} rays, "
