@@ -3,7 +3,7 @@
 
 For each display below the panel is made by the nodal, traced, integrated and inverse pick-up, and seen by eyes between the fitted ones: PSNR of sRGB
 codes and SSIM of luma against photographs of the scene, inside the border of the screen, as docs/inverse.md has them. The last column is the inverse
-pick-up over the best of the others. --beside: at eyes two view steps beside the box instead, at its sides and corners. Needs numpy and Pillow.
+pick-up over the best of the others. --beside: at eyes two view steps beside the box instead, at its sides and corners. Needs numpy.
 """
 import argparse
 import json

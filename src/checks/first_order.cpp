@@ -24,7 +24,6 @@ double rounded(double x) {
 
 namespace {
 
-/// The range of a number of a design request.
 // The allowed values of a design request, by option.
 struct DesignLimit {
     double DesignRequest::*field;

@@ -3,6 +3,7 @@
 #include "engine/scene/traced_display.h"
 #include "examples.h"
 #include "files/description/display_file.h"
+#include "interchange/meshed/cell_sides.h"
 #include "interchange/peers/cell.h"
 #include "interchange/peers/peers.h"
 #include "interchange/peers/ply.h"

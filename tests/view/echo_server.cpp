@@ -1,5 +1,6 @@
 // Serves echoes until its standard input ends; says its port and token, and at the end what it counted. For attacks.py.
 #include "echo.h"
+#include "view/server/access.h"
 
 #include <fmt/format.h>
 #include <cstdio>

@@ -1,4 +1,5 @@
 #include "view/server/server.h"
+#include "view/server/access.h"
 
 #include "echo.h"
 

@@ -6,12 +6,9 @@
 // docs/measures.md, "Resolution", edges.
 #pragma once
 #include "analysis/core/estimate.h"
-#include "analysis/resolution/fourier.h"
-#include "base/constants.h"
 #include "image/image.h"
 
 #include <array>
-#include <cmath>
 #include <span>
 #include <vector>
 

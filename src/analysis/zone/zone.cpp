@@ -124,8 +124,7 @@ std::string aside_remark(const Json& figures) {
             const double aside = at[0].get<double>() + at[1].get<double>();
             if (std::abs(aside) > error[0].get<double>() + error[1].get<double>())
                 return "The zone is not symmetric: the array is shifted or turned, or pixels whose centres lie on the border of "
-                       "two "
-                       "elemental images belong, as whole pixels must, to the one to the right and above.";
+                       "two elemental images belong, as whole pixels must, to the one to the right and above.";
         }
     }
     return "";

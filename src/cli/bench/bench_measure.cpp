@@ -1,7 +1,5 @@
 #include "cli/bench/bench.h"
 
-#include "analysis/core/subject.h"
-
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <algorithm>

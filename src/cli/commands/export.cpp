@@ -11,7 +11,6 @@
 #include "engine/devices/memory.h"
 #include "files/description/display_file.h"
 #include "files/description/shell.h"
-#include "files/description/text_file.h"
 #include "files/lenses/lens_table.h"
 #include "image/formats/file.h"
 #include "interchange/peers/fine_panel.h"

@@ -19,7 +19,6 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <chrono>
 
 // lfdsim render: renders what a camera sees of a panel image, a pattern or a model. All faults of the command line are reported,
 // together, before work begins.

@@ -8,6 +8,7 @@
 #include "cli/program/interrupt.h"
 #include "view/answers/hidden_paths.h"
 #include "view/painting/panels.h"
+#include "view/server/access.h"
 #include "view/server/page.h"
 #include "view/server/server.h"
 #include "view/server/visit.h"

@@ -1,4 +1,3 @@
-#include "analysis/core/subject.h"
 #include "cli/options/display_options.h"
 #include "cli/options/grid_options.h"
 #include "cli/options/panel_source.h"

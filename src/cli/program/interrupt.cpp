@@ -45,7 +45,7 @@ void guard_output(const std::filesystem::path& path) {
     refuse_input(path);
     static std::string text;
     partial_file = nullptr;
-    text = fmt::format("{}.partial-{}", path.string(), getpid());  // the name that write_image() uses
+    text = fmt::format("{}.partial-{}", path.string(), getpid());  // the name that OutputFile uses
     partial_file = text.c_str();
 }
 

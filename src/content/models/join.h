@@ -2,7 +2,6 @@
 #pragma once
 #include "content/content.h"
 #include "content/models/model.h"
-#include "geometry/resolve.h"
 
 namespace lfdsim {
 

@@ -22,8 +22,6 @@ class MipMap {
     /// clamped), blended. `level` is the base 2 logarithm of the filter's width in texels.
     Texel sample(float u, float v, float level, Wrap wrap_u, Wrap wrap_v) const;
 
-    int width() const { return levels_[0].width; }
-    int height() const { return levels_[0].height; }
     double bytes() const;
 
   private:

@@ -3,7 +3,6 @@
 #include "display/view_grid.h"
 #include "image/image.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace lfdsim {

@@ -3,7 +3,6 @@
 #include "content/pictures/scene.h"
 #include "optics/sampler.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

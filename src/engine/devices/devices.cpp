@@ -2,6 +2,7 @@
 
 #include "base/job.h"
 #include "engine/devices/gpu.h"
+#include "engine/render.h"
 
 #include <charconv>
 #include <cstdlib>

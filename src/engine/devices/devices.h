@@ -1,7 +1,6 @@
 // The table of kernels: which are compiled in, which this machine can run, which one to use. Floor 2.
 #pragma once
 #include "engine/devices/kernel.h"
-#include "engine/render.h"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,5 @@
 #include "engine/scene/work.h"
 
-#include "engine/estimator/summed_panel.h"
 #include "engine/scene/traced_display.h"
 
 #include <fmt/format.h>

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
 namespace lfdsim {
 

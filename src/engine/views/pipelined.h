@@ -4,7 +4,6 @@
 #include "engine/render.h"
 
 #include <future>
-#include <optional>
 
 namespace lfdsim {
 

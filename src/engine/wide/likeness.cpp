@@ -1,7 +1,6 @@
 #include "engine/wide/likeness.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace lfdsim::wide {

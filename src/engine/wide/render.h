@@ -5,7 +5,6 @@
 #include "engine/wide/queue.h"
 
 #include <optional>
-#include <vector>
 
 namespace lfdsim::wide {
 

@@ -3,7 +3,6 @@
 #include "base/host_device.h"
 #include "image/compare/ssim.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 

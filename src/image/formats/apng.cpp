@@ -6,7 +6,6 @@
 
 #include <tbb/parallel_for.h>
 #include <zlib.h>
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>

@@ -7,7 +7,6 @@
 #include <bit>
 #include <cctype>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 

@@ -1,5 +1,4 @@
 #include "image/formats/encoder.h"
-#include "image/formats/encoding.h"
 #include "image/formats/first_failure.h"
 #include "image/formats/formats.h"
 

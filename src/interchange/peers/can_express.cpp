@@ -6,7 +6,6 @@
 #include "interchange/pov/pov_lenses.h"
 
 #include <fmt/format.h>
-#include <cmath>
 
 namespace lfdsim {
 

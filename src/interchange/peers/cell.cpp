@@ -1,6 +1,7 @@
 #include "interchange/peers/cell.h"
 
 #include "base/constants.h"
+#include "interchange/meshed/cell_sides.h"
 #include "interchange/meshed/lens_mesh.h"
 
 #include <fmt/format.h>

@@ -2,9 +2,7 @@
 #pragma once
 #include "display/display.h"
 #include "geometry/geometry.h"
-#include "interchange/meshed/cell_sides.h"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>

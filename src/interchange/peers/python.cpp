@@ -1,6 +1,7 @@
 #include "interchange/peers/python.h"
 
 #include "engine/scene/traced_display.h"
+#include "interchange/meshed/cell_sides.h"
 #include "interchange/peers/array_frame.h"
 #include "interchange/peers/cell.h"
 #include "interchange/peers/ply.h"

@@ -2,7 +2,6 @@
 #pragma once
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>

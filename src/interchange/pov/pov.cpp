@@ -4,6 +4,7 @@
 #include "geometry/lens_misalignment.h"
 #include "geometry/prescription.h"
 #include "geometry/resolve.h"
+#include "interchange/meshed/cell_sides.h"
 #include "interchange/peers/array_frame.h"
 #include "interchange/peers/cell.h"
 #include "interchange/peers/scene_text.h"

@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "engine/scene/misalignment.h"
 #include "geometry/lens_misalignment.h"
+#include "interchange/meshed/cell_sides.h"
 #include "interchange/peers/cell.h"
 #include "interchange/pov/pov_matter.h"
 #include "optics/lattice.h"

@@ -2,6 +2,7 @@
 
 #include "geometry/lens_misalignment.h"
 #include "geometry/vec.h"
+#include "interchange/meshed/cell_sides.h"
 #include "interchange/peers/cell.h"
 #include "interchange/pov/pov_lenses.h"
 

@@ -1,6 +1,5 @@
 #include "report/plots/svg_drawing.h"
 
-#include "analysis/core/result.h"
 #include "base/printable.h"
 
 #include <fmt/format.h>

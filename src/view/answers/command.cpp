@@ -3,8 +3,6 @@
 #include "content/content.h"
 #include "files/description/shell.h"
 
-#include <vector>
-
 namespace lfdsim::view {
 namespace {
 

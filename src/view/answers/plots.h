@@ -1,9 +1,8 @@
 // The two plots that a page may ask for: small measurements, in seconds. Floor 5.
 #pragma once
 #include "analysis/core/result.h"
-#include "analysis/core/subject.h"
+#include "content/content.h"
 
-#include <memory>
 #include <string>
 
 namespace lfdsim::view {

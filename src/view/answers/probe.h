@@ -1,6 +1,5 @@
 // The lens and the panel pixel that a point of the picture shows. Floor 5.
 #pragma once
-#include "analysis/core/result.h"
 #include "display/display.h"
 
 #include <array>

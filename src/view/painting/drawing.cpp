@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <limits>
 
 namespace lfdsim::view {

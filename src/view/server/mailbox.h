@@ -20,7 +20,7 @@ class Mailbox {
         std::string bytes;
         bool binary;
     };
-    /// Adds a text. Returns false if more texts wait than outbox.h allows; the box is then emptied and closed.
+    /// Adds a text. Returns false if more texts or bytes wait than the limits above; the box is then emptied and closed.
     bool text(std::string);
     /// Adds a frame. Returns true if it replaced one that waited in the same lane. Lanes are sent in the order in which they began
     /// to wait.

@@ -3,13 +3,11 @@
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "files/description/json_text.h"
-#include "files/description/nearest.h"
 
 #include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <span>
 
 namespace lfdsim::view {
 namespace {

@@ -1,6 +1,5 @@
 // HTTP and WebSocket on one port, with Boost.Beast. Floor 5. Independent of displays.
 #pragma once
-#include "view/server/access.h"
 #include "view/server/outbox.h"
 
 #include <chrono>

@@ -4,7 +4,6 @@
 
 #include <strings.h>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
