@@ -69,9 +69,7 @@ class ErrorsCheck {
 
     /// Returns whether a face of the lens is concave to the outside: somewhere it lies lower than its rim.
     bool hollow() const {
-        const auto rim = [](const PlacedSurface& s) {
-            return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm);
-        };
+        const auto rim = [](const PlacedSurface& s) { return sag_mm(s, s.semi_aperture_mm); };
         return sag_range_mm(g_.surfaces.back())[0] < rim(g_.surfaces.back()) - rounding_mm ||
                sag_range_mm(g_.surfaces.front())[1] > rim(g_.surfaces.front()) + rounding_mm;
     }

@@ -148,8 +148,7 @@ double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) 
     if (g.pupil.inner_z && round) return *g.pupil.inner_z;
     if (d.lens.is_thin() || stop_at_entrance(d, g)) return g.entrance_z_mm;
     const PlacedSurface& last = g.surfaces.back();
-    return last.z_mm + sag_mm(last.curvature_per_mm, last.conic, last.even_asphere,
-                              filled ? std::min(lens_pitch_mm(g, axis) / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
+    return last.z_mm + sag_mm(last, filled ? std::min(lens_pitch_mm(g, axis) / 2, last.semi_aperture_mm) : last.semi_aperture_mm);
 }
 
 std::array<double, 2> joining_spread_mm(const Geometry& g) {

@@ -10,8 +10,6 @@
 namespace lfdsim {
 namespace {
 
-double sag(const PlacedSurface& s, double distance) { return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, distance); }
-
 /// Returns the least value of f over [0, end]: a scan finds the valley, golden section its floor. An asphere of 8 terms has at most
 /// 9 valleys, far wider than a step unless its coefficients cancel one another beyond any real lens. NaN anywhere gives NaN.
 template <class Function>
@@ -47,13 +45,25 @@ double sag_mm(double curvature, double conic, const std::vector<double>& even_as
     return curvature * s2 / (1 + std::sqrt(root2)) + polynomial * s2 * s2;
 }
 
+bool has_aspheric_terms(const PlacedSurface& s) {
+    return std::any_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a != 0; });
+}
+
+bool is_plane(const PlacedSurface& s) { return s.curvature_per_mm == 0 && !has_aspheric_terms(s); }
+
+double sag_mm(const PlacedSurface& s, double distance_mm) {
+    return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, distance_mm);
+}
+
+double rim_z_mm(const PlacedSurface& s) { return s.z_mm + sag_mm(s, s.semi_aperture_mm); }
+
 std::array<double, 2> sag_range_mm(const PlacedSurface& s) {
-    return {lowest([&](double x) { return sag(s, x); }, s.semi_aperture_mm),
-            -lowest([&](double x) { return -sag(s, x); }, s.semi_aperture_mm)};
+    return {lowest([&](double x) { return sag_mm(s, x); }, s.semi_aperture_mm),
+            -lowest([&](double x) { return -sag_mm(s, x); }, s.semi_aperture_mm)};
 }
 
 double clearance_mm(const PlacedSurface& lower, const PlacedSurface& upper) {
-    const auto distance = [&](double x) { return upper.z_mm + sag(upper, x) - lower.z_mm - sag(lower, x); };
+    const auto distance = [&](double x) { return upper.z_mm + sag_mm(upper, x) - lower.z_mm - sag_mm(lower, x); };
     return lowest(distance, std::min(lower.semi_aperture_mm, upper.semi_aperture_mm));
 }
 

@@ -24,6 +24,15 @@ double glass_radius_mm(const std::optional<double>& aperture_radius_mm, const Le
 /// Returns the lens's surfaces for light of a wavelength, panel side first, with the first vertex in z = 0.
 std::vector<PlacedSurface> prescription(const Lens&, const LensArray&, double wavelength_nm);
 
+/// Returns whether a surface has aspheric terms that are not 0.
+bool has_aspheric_terms(const PlacedSurface&);
+/// Returns whether a surface has neither curvature nor aspheric terms.
+bool is_plane(const PlacedSurface&);
+
+/// Returns the sag of a surface at a distance from its axis, mm.
+double sag_mm(const PlacedSurface&, double distance_mm);
+/// Returns the height of a surface at its semi-aperture, mm, in the frame of the surfaces.
+double rim_z_mm(const PlacedSurface&);
 /// Returns the lowest and highest sag within the semi-aperture, mm; NaN where the sag is not real.
 std::array<double, 2> sag_range_mm(const PlacedSurface&);
 

@@ -21,11 +21,6 @@ double reduced_mm(const std::vector<PlacedLayer>& layers) {
     return sum;
 }
 
-bool is_flat(const PlacedSurface& s) {
-    return s.form != SurfaceForm::thin && s.curvature_per_mm == 0 &&
-           std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
-}
-
 std::vector<PlacedLayer> placed_layers(const Panel& panel, double wavelength_nm) {
     std::vector<PlacedLayer> layers;
     for (const Layer& layer : panel.layers)
@@ -97,7 +92,8 @@ void place_lens(const Lens& lens, const LensArray& array, const Panel& panel, Ge
     // To the last bit as given: g = f must stay exact. A flat face that is glued on has no power: g is the same without air.
     g.gap_mm = array.gap_mm.value_or(reduced_T + (g.front_principal_mm - T));
     const PlacedSurface& lowest_surface = g.surfaces.front();
-    g.glued = is_flat(lowest_surface) && std::abs(g.base_z_mm - T) <= glue_mm && std::abs(lowest_surface.z_mm - T) <= glue_mm;
+    g.glued = lowest_surface.form != SurfaceForm::thin && is_plane(lowest_surface) && std::abs(g.base_z_mm - T) <= glue_mm &&
+              std::abs(lowest_surface.z_mm - T) <= glue_mm;
     if (g.glued) glue(g);
     g.pupil = pupil(g.surfaces, lens.stop_radius_mm, g.stop_z_mm);
     clear_apertures(array, g);

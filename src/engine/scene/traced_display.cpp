@@ -52,10 +52,9 @@ optics::Interface<S> interface(double above, double below) {
 template <class S>
 optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
     optics::SurfaceData<S> to{};
-    const bool plain = from.even_asphere.empty() ||
-                       std::all_of(from.even_asphere.begin(), from.even_asphere.end(), [](double a) { return a == 0; });
-    to.shape = !plain ? Shape::asphere : from.curvature_per_mm == 0 ? Shape::plane : from.conic == 0 ? Shape::sphere : Shape::conic;
-    to.terms = plain ? 0 : std::int32_t(from.even_asphere.size());
+    const bool terms = has_aspheric_terms(from);
+    to.shape = terms ? Shape::asphere : from.curvature_per_mm == 0 ? Shape::plane : from.conic == 0 ? Shape::sphere : Shape::conic;
+    to.terms = terms ? std::int32_t(from.even_asphere.size()) : 0;
     if (from.even_asphere.size() > max_asphere_terms)
         throw InputError("lens.surface.even_asphere", "has more terms than the " + std::to_string(max_asphere_terms) + " allowed");
     for (int i = 0; i < to.terms; ++i) to.asphere[i] = S(from.even_asphere[i]);
@@ -63,7 +62,7 @@ optics::SurfaceData<S> surface_data(const PlacedSurface& from) {
     to.curvature = S(from.curvature_per_mm);
     to.conic = S(from.conic);
     to.semi_aperture = S(from.semi_aperture_mm);
-    const double rim = sag_mm(from.curvature_per_mm, from.conic, from.even_asphere, from.semi_aperture_mm);
+    const double rim = sag_mm(from, from.semi_aperture_mm);
     to.rim = S(rim);
     to.c_rim = S(from.curvature_per_mm * rim);
     const auto [low, high] = sag_range_mm(from);
@@ -91,13 +90,13 @@ void add_lens(optics::TracedDisplay<S>& scene, const Geometry& geometry) {
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
         const PlacedSurface& s = surfaces[surfaces.size() - 1 - k];  // the viewer's side first
         scene.surface[k] = surface_data<S>(s);
-        const double rim = s.z_mm + sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm);
+        const double rim = rim_z_mm(s);
         wall_top = std::max(wall_top, rim);
         wall_bottom = std::min(wall_bottom, rim);
     }
     const PlacedSurface& first = surfaces.back();
     const auto [low, high] = sag_range_mm(first);
-    const double rim = sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, first.semi_aperture_mm);
+    const double rim = sag_mm(first, first.semi_aperture_mm);
     scene.concave_front = low < rim - 1e-9 || first.z_mm + rim < wall_top - 1e-9;
     scene.zone_top = S(scene.concave_front ? wall_top : first.z_mm + high);
     scene.zone_bottom = S(scene.concave_front ? wall_top : first.z_mm + low);
@@ -119,8 +118,7 @@ void add_holes(optics::TracedDisplay<S>& scene, const Display& display, const Ge
     // The border is taken at the root mean square distance of a hexagon's border from its axis; strips end at their sides only.
     if (geometry.lattice.hexagonal) edge.fill(edge[0] * std::sqrt(10.0) / 3);
     if (geometry.lattice.strips) edge[1] = edge[0];
-    for (std::size_t k = 0; k < 2; ++k)
-        z[k] = first.z_mm + sag_mm(first.curvature_per_mm, first.conic, first.even_asphere, radius > 0 ? radius : edge[k]);
+    for (std::size_t k = 0; k < 2; ++k) z[k] = first.z_mm + sag_mm(first, radius > 0 ? radius : edge[k]);
     scene.lit_between = display.array.surround != Surround::opaque;
     if (stop_at_entrance(display, geometry) && (radius == 0 || *display.lens.stop_radius_mm < radius)) {
         radius = *display.lens.stop_radius_mm;

@@ -1,6 +1,7 @@
 #include "interchange/meshed/lens_mesh.h"
 
 #include "base/constants.h"
+#include "geometry/prescription.h"
 #include "geometry/resolve.h"
 #include "geometry/vec.h"
 #include "interchange/meshed/cell_sides.h"
@@ -15,12 +16,6 @@ namespace lfdsim {
 namespace {
 
 constexpr double touching = 1e-6;  // of the semi-aperture: rims closer together than this coincide
-
-bool is_plane(const PlacedSurface& s) {
-    return s.curvature_per_mm == 0 && std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
-}
-
-double sag(const PlacedSurface& s, double distance) { return sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, distance); }
 
 /// Returns the upward unit normal at this distance s from the axis: its components away from the axis and along z. It is along
 /// (-dz/ds, 1), with dz/ds = c s/root + 4 a4 s^3 + ...; multiplied by root = sqrt(1 - (1 + k) c^2 s^2) it is finite at a half
@@ -85,7 +80,7 @@ std::vector<double> ring_distances(const PlacedSurface& s, double reach, int rin
     const auto distance = [&](int i) { return reach * std::sin(0.5 * pi * i / steps); };  // dense at a steep rim
     std::vector<double> length(steps + 1, 0.0);
     for (int i = 1; i <= steps; ++i)
-        length[i] = length[i - 1] + std::hypot(distance(i) - distance(i - 1), sag(s, distance(i)) - sag(s, distance(i - 1)));
+        length[i] = length[i - 1] + std::hypot(distance(i) - distance(i - 1), sag_mm(s, distance(i)) - sag_mm(s, distance(i - 1)));
     std::vector<double> all;
     for (int k = 1, i = 1; k < rings; ++k) {
         const double wanted = length[steps] * k / rings;
@@ -156,7 +151,8 @@ class Builder {
         const auto middle = Outline(a, display_, geometry_, sides_).middle_of_side();
         const double x = std::hypot(middle[0], middle[1]);
         const double near = touching * a.semi_aperture_mm;
-        return std::abs(a.semi_aperture_mm - b.semi_aperture_mm) < near && std::abs(a.z_mm + sag(a, x) - b.z_mm - sag(b, x)) < near;
+        return std::abs(a.semi_aperture_mm - b.semi_aperture_mm) < near &&
+               std::abs(a.z_mm + sag_mm(a, x) - b.z_mm - sag_mm(b, x)) < near;
     }
 
     std::uint32_t add_vertex(double x, double y, double z, const Vec3d& n) {
@@ -192,7 +188,7 @@ class Builder {
                 const double scale = distances[k - 1] / outline.reach(), x = scale * border_x, y = scale * border_y;
                 const double distance = std::hypot(x, y);
                 const auto [across, up] = normal(s, distance);
-                add_vertex(x, y, vertex_z + sag(s, distance),
+                add_vertex(x, y, vertex_z + sag_mm(s, distance),
                            {sense * across * x / distance, sense * across * y / distance, sense * up});
             }
             // Triangles to the ring within: a fan about the pole, then sectors of 2 k - 1 triangles
@@ -226,7 +222,7 @@ class Builder {
         const auto add = [&](std::uint32_t i, std::uint32_t j) {
             const double x = half * std::sin(0.5 * pi * (2.0 * i / n - 1)), y = sides_[0].half_length_mm * (2.0 * j / m - 1);
             const auto [across, up] = normal(s, std::abs(x));
-            add_vertex(x, y, s.z_mm - geometry_.base_z_mm + sag(s, std::abs(x)),
+            add_vertex(x, y, s.z_mm - geometry_.base_z_mm + sag_mm(s, std::abs(x)),
                        {sense * (x < 0 ? -across : across), 0, sense * up});
         };
         // The rim first, counter-clockwise

@@ -1,6 +1,7 @@
 #include "interchange/peers/cell.h"
 
 #include "base/constants.h"
+#include "geometry/prescription.h"
 #include "interchange/meshed/cell_sides.h"
 #include "interchange/meshed/lens_mesh.h"
 
@@ -230,11 +231,11 @@ class ArrayBuilder {
         take(made_.cell, std::move(cap));
         if (display_.array.surround != Surround::plate) return;
         Patch flat{fmt::format("flat-{}", k + 1), false, s.index_above, s.index_below, {}, {}, {}};
-        add_ring(flat, rims_[k], local(rim_z(s)), sides_, 0);
+        add_ring(flat, rims_[k], local(rim_z_mm(s)), sides_, 0);
         take(made_.cell, std::move(flat));
         Patch beside{fmt::format("beside-{}", k + 1), false, s.index_above, s.index_below, {}, {}, {}};
-        add_frame(beside, array_half(geometry_), local(rim_z(s)), sheet_half(geometry_));
-        add_between(beside, geometry_, local(rim_z(s)));
+        add_frame(beside, array_half(geometry_), local(rim_z_mm(s)), sheet_half(geometry_));
+        add_between(beside, geometry_, local(rim_z_mm(s)));
         take(made_.sheet, std::move(beside));
     }
 
@@ -334,20 +335,14 @@ class ArrayBuilder {
 
 }  // namespace
 
-double rim_z(const PlacedSurface& s) { return s.z_mm + sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, s.semi_aperture_mm); }
-
-bool is_plane(const PlacedSurface& s) {
-    return s.curvature_per_mm == 0 && std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
-}
-
 std::vector<Ring> black_rings(const Display& display, const Geometry& geometry) {
     if (display.array.surround != Surround::opaque) return {};
     std::vector<Ring> rings;
     double top = -INFINITY, bottom = INFINITY;
     for (const PlacedSurface& s : geometry.surfaces) {
-        rings.push_back({rim_z(s), s.semi_aperture_mm});
-        top = std::max(top, rim_z(s));
-        bottom = std::min(bottom, rim_z(s));
+        rings.push_back({rim_z_mm(s), s.semi_aperture_mm});
+        top = std::max(top, rim_z_mm(s));
+        bottom = std::min(bottom, rim_z_mm(s));
     }
     // A surface concave to the outside lies inside the black part: light also has to pass the hole in that part's face.
     rings.push_back({top, geometry.surfaces.back().semi_aperture_mm});

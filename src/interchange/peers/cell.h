@@ -42,9 +42,4 @@ std::vector<Ring> black_rings(const Display&, const Geometry&);
 /// Returns the ring of the stop, if there is one.
 std::vector<Ring> stop_rings(const Display&, const Geometry&);
 
-/// Returns the height of a surface at its semi-aperture, mm from the panel.
-double rim_z(const PlacedSurface&);
-/// Returns whether a surface has neither curvature nor aspheric terms.
-bool is_plane(const PlacedSurface&);
-
 }  // namespace lfdsim::peers

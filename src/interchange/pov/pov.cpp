@@ -191,7 +191,7 @@ class PovWriter {
             for (const PlacedSurface& s : surfaces) {
                 if (is_plane(s)) continue;
                 parts += "  " + pov_skin(s, d_.array, cell_) + " }\n";
-                if (beside_hole(s.semi_aperture_mm)) parts += ring(rim_z(s), s.semi_aperture_mm, "");
+                if (beside_hole(s.semi_aperture_mm)) parts += ring(rim_z_mm(s), s.semi_aperture_mm, "");
             }
         } else {
             for (const PlacedSurface& s : surfaces)
@@ -207,8 +207,8 @@ class PovWriter {
         double widest = 0, low = INFINITY, high = -INFINITY;
         for (const PlacedSurface& s : g_.surfaces) {
             widest = std::max(widest, s.semi_aperture_mm);
-            low = std::min(low, rim_z(s));
-            high = std::max(high, rim_z(s));
+            low = std::min(low, rim_z_mm(s));
+            high = std::max(high, rim_z_mm(s));
         }
         for (const Ring& r : black_rings(d_, g_))
             if (beside_hole(r.radius_mm)) parts += ring(above_panel(r.z_mm), r.radius_mm, black());
@@ -313,7 +313,7 @@ class PovWriter {
                 if (high > low + 1e-9) walls += upright(side.from, side.to, low, high, "clipped_by { " + within + " }");
             };
             const auto [sag_low, sag_high] = sag_range_mm(s);
-            const double low = s.z_mm + sag_low, high = s.z_mm + sag_high, flat = rim_z(s);
+            const double low = s.z_mm + sag_low, high = s.z_mm + sag_high, flat = rim_z_mm(s);
             if (at_border) {
                 wall(flat, high, space(false));
                 wall(low, flat, space(true));
@@ -356,8 +356,8 @@ class PovWriter {
         all += fmt::format("    bounded_by {{ box {{ <{0}, Y - {2}, {3}>, <{1}, Y + {2}, {4}> }} }}\n  }}\n#end\n", text(-x - 0.02),
                            text(x + 0.02), text(cell_.half()[1] + 0.02), text(g_.base_z_mm - 0.02), text(g_.top_z_mm + 0.02));
         for (const PlacedSurface& s : g_.surfaces) {
-            if (!is_plane(s)) flats += ring(rim_z(s), 0, "");
-            if (&s != glued_) all += "  " + (is_plane(s) ? face(s.z_mm) : beside(rim_z(s), "")) + " }\n";
+            if (!is_plane(s)) flats += ring(rim_z_mm(s), 0, "");
+            if (&s != glued_) all += "  " + (is_plane(s) ? face(s.z_mm) : beside(rim_z_mm(s), "")) + " }\n";
         }
         all += fmt::format("  {}{} transform {{ Place }}\n}}\n", between(flats), medium(index));
         for (const Ring& r : stop_rings(d_, g_)) {

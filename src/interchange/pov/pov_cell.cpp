@@ -1,7 +1,6 @@
 #include "interchange/pov/pov_cell.h"
 
 #include "interchange/meshed/cell_sides.h"
-#include "interchange/peers/cell.h"
 #include "interchange/peers/scene_text.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include "base/constants.h"
 #include "engine/scene/misalignment.h"
 #include "geometry/lens_misalignment.h"
+#include "geometry/prescription.h"
 #include "interchange/meshed/cell_sides.h"
-#include "interchange/peers/cell.h"
 #include "interchange/pov/pov_matter.h"
 #include "optics/lattice.h"
 
@@ -177,8 +177,8 @@ std::optional<std::array<double, 2>> PovLenses::walls() const {
         const PovLens& s = lenses_[k];
         double top = -INFINITY, bottom = INFINITY, wide = 0;
         for (const PlacedSurface& of : surfaces(k)) {
-            top = std::max(top, rim_z(of));
-            bottom = std::min(bottom, rim_z(of));
+            top = std::max(top, rim_z_mm(of));
+            bottom = std::min(bottom, rim_z_mm(of));
             wide = std::max(wide, of.semi_aperture_mm);
         }
         if (filled) wide = std::min(wide, cell_.strips() ? cell_.half()[0] : cell_.outer_radius());

@@ -1,9 +1,9 @@
 #include "interchange/pov/pov_limits.h"
 
 #include "geometry/lens_misalignment.h"
+#include "geometry/prescription.h"
 #include "geometry/vec.h"
 #include "interchange/meshed/cell_sides.h"
-#include "interchange/peers/cell.h"
 #include "interchange/pov/pov_lenses.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "interchange/pov/pov_misaligned.h"
 
-#include "interchange/peers/cell.h"
+#include "geometry/prescription.h"
 #include "interchange/pov/pov_lenses.h"
 #include "interchange/pov/pov_limits.h"
 #include "interchange/pov/pov_matter.h"
@@ -77,8 +77,8 @@ class Placed {
     static Rims rims(const std::vector<PlacedSurface>& surfaces) {
         Rims of;
         for (const PlacedSurface& s : surfaces) {
-            of.low = std::min(of.low, rim_z(s));
-            of.high = std::max(of.high, rim_z(s));
+            of.low = std::min(of.low, rim_z_mm(s));
+            of.high = std::max(of.high, rim_z_mm(s));
             of.radius = std::max(of.radius, s.semi_aperture_mm);
         }
         return of;

@@ -1,7 +1,7 @@
 #include "interchange/pov/pov_moved_caps.h"
 
+#include "geometry/prescription.h"
 #include "interchange/meshed/cell_sides.h"
-#include "interchange/peers/cell.h"
 #include "interchange/pov/pov_lenses.h"
 #include "interchange/pov/pov_matter.h"
 #include "interchange/pov/pov_surface.h"
@@ -43,14 +43,14 @@ class PovMovedCaps {
     std::string face(double z) const { return fmt::format("disc {{ {}, z, {} }}\n", vector(0, 0, z), text(100 * sheet_half(g_))); }
 
     /// Returns the height at which the slab ends, that of the perfect rim.
-    double slab_z(bool top) const { return rim_z(top ? g_.surfaces.back() : g_.surfaces.front()); }
+    double slab_z(bool top) const { return rim_z_mm(top ? g_.surfaces.back() : g_.surfaces.front()); }
 
     /// Returns the body under a cap, as far into the slab and beyond as the column goes, without the closing brace.
     std::string glass(std::size_t k, bool top) const {
         const PlacedSurface own = top ? lenses_.surfaces(k).back() : lenses_.surfaces(k).front();
         const double reach = (d_.array.aperture == Aperture::cell ? lenses_.cell().widest_half() : own.semi_aperture_mm) + 0.01;
         const std::string rim =
-            top ? fmt::format("plane {{ z, {} }}", text(rim_z(own))) : fmt::format("plane {{ -z, {} }}", text(-rim_z(own)));
+            top ? fmt::format("plane {{ z, {} }}", text(rim_z_mm(own))) : fmt::format("plane {{ -z, {} }}", text(-rim_z_mm(own)));
         return fmt::format("intersection {{ {} merge {{ {} {} }} {}", lenses_.column(own.semi_aperture_mm, 0), rim,
                            pov_space(own, lenses_.cell(), !top, reach, lenses_.low(), lenses_.high()), lenses_.frame(k));
     }

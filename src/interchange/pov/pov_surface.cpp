@@ -1,7 +1,6 @@
 #include "interchange/pov/pov_surface.h"
 
 #include "geometry/prescription.h"
-#include "interchange/peers/cell.h"
 #include "interchange/peers/scene_text.h"
 
 #include <algorithm>
@@ -11,11 +10,6 @@ namespace lfdsim::peers {
 namespace {
 
 constexpr double margin_mm = 1e-6;  // by which the clipping shape is larger than the surface
-
-/// Returns whether a surface has no aspheric terms.
-bool is_conic(const PlacedSurface& s) {
-    return std::all_of(s.even_asphere.begin(), s.even_asphere.end(), [](double a) { return a == 0; });
-}
 
 /// Returns z minus the sag, as a formula of x, z and, unless the surface is a cylinder along y, y. Beyond `reach` the sag is
 /// constant, so that the bound on the slope holds everywhere.
@@ -35,7 +29,7 @@ double steepest(const PlacedSurface& s, double reach) {
     constexpr int steps = 1024;
     double slope = 0, before = 0;
     for (int i = 1; i <= steps; ++i) {
-        const double sag = sag_mm(s.curvature_per_mm, s.conic, s.even_asphere, reach * i / steps);
+        const double sag = sag_mm(s, reach * i / steps);
         slope = std::max(slope, std::abs(sag - before) * steps / reach);
         before = sag;
     }
@@ -81,16 +75,18 @@ std::string pov_skin(const PlacedSurface& s, const LensArray& array, const PovCe
     if (is_plane(s))
         return fmt::format("disc {{ {}, z, {}", vector(0, 0, s.z_mm), text(cell.strips() ? std::hypot(r, cell.half_length()) : r)) +
                clip;
-    if (!is_conic(s)) return isosurface(s, cell, false, r + margin_mm, z0, z1) + " open" + clip;
+    if (has_aspheric_terms(s)) return isosurface(s, cell, false, r + margin_mm, z0, z1) + " open" + clip;
     return (s.conic == 0 ? ball(s, cell, true) : quadric(s, cell)) + clip;
 }
 
-bool pov_faces_up(const PlacedSurface& s) { return is_plane(s) || !is_conic(s) || (s.conic == 0 && s.curvature_per_mm < 0); }
+bool pov_faces_up(const PlacedSurface& s) {
+    return is_plane(s) || has_aspheric_terms(s) || (s.conic == 0 && s.curvature_per_mm < 0);
+}
 
 std::string pov_space(const PlacedSurface& s, const PovCell& cell, bool above, double reach, double low, double high) {
     if (is_plane(s))
         return above ? fmt::format("plane {{ -z, {} }}", text(-s.z_mm)) : fmt::format("plane {{ z, {} }}", text(s.z_mm));
-    if (!is_conic(s)) return isosurface(s, cell, above, reach, low, high) + " }";
+    if (has_aspheric_terms(s)) return isosurface(s, cell, above, reach, low, high) + " }";
     if (s.conic != 0) return quadric(s, cell) + (above ? " }" : " inverse }");
     return ball(s, cell, false) + (above == (s.curvature_per_mm > 0) ? " }" : " inverse }");
 }

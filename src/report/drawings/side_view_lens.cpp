@@ -1,4 +1,5 @@
 #include "base/constants.h"
+#include "geometry/prescription.h"
 #include "report/drawings/front_view.h"
 #include "report/drawings/section.h"
 #include "report/drawings/side_scale.h"
@@ -12,9 +13,6 @@ namespace {
 
 constexpr double lens_page_width = 960, left = 76, top = 16, notes_width = 236, lens_drawn = lens_page_width - left - notes_width,
                  lens_most_height = 440, front_side = 130;
-
-/// Returns the z of a surface at a distance from the axis, mm.
-double rim_z(const PlacedSurface& f, double rim) { return f.z_mm + sag_mm(f.curvature_per_mm, f.conic, f.even_asphere, rim); }
 
 /// The part of the display that is drawn.
 struct DrawnWindow {
@@ -46,7 +44,7 @@ void add_surface(std::vector<Point>& outline, const SideScale& scale, const Disp
     constexpr int steps = 48;
     for (int k = 0; k <= steps; ++k) {
         const double s = rim_of(d, f) * (2. * (up ? k : steps - k) / steps - 1);
-        outline.push_back(scale.at(y + s, rim_z(f, std::abs(s))));
+        outline.push_back(scale.at(y + s, f.z_mm + sag_mm(f, std::abs(s))));
     }
 }
 
@@ -83,7 +81,7 @@ void draw_between(SvgDrawing& drawing, const SideScale& scale, const Display& d,
     double rim = g.glass_radius_mm, low = g.vertex_plane_mm, high = low;
     if (d.array.aperture == Aperture::cell) rim = half;
     for (const PlacedSurface& f : g.surfaces) {
-        const double z = rim_z(f, std::min(rim, rim_of(d, f)));
+        const double z = f.z_mm + sag_mm(f, std::min(rim, rim_of(d, f)));
         low = &f == &g.surfaces.front() ? z : std::min(low, z);
         high = &f == &g.surfaces.front() ? z : std::max(high, z);
     }
