@@ -4,6 +4,7 @@
 // Usage: lfdsim-embree-share DISPLAY.toml MODEL [runs = 5]
 //
 // Prints JSON, medians: the shares are measured on one thread, the depth sweeps (three at most) on all.
+#include "base/seconds.h"
 #include "content/content.h"
 #include "files/description/display_file.h"
 
@@ -41,10 +42,6 @@ using namespace lfdsim;
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return values[values.size() / 2];
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// The time that reading the counter twice adds to a call.

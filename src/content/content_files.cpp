@@ -1,5 +1,6 @@
 // The files of content, and reading all of them within common limits.
 
+#include "base/seconds.h"
 #include "content/models/memory.h"
 #include "content/models/model.h"
 
@@ -62,7 +63,7 @@ ContentParts load_parts(const std::vector<ContentFile>& files, const LoadOptions
                         options.bytes >> 20));
             model = file.image ? load_picture(file.path, left) : load_model(file.path, left);
             left.bytes -= bytes_of(*model);
-            left.seconds = options.seconds - std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            left.seconds = options.seconds - seconds_since(start);
         }
         parts.push_back(model);
     }

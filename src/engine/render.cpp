@@ -1,6 +1,7 @@
 #include "engine/render.h"
 
 #include "base/on_threads.h"
+#include "base/seconds.h"
 #include "display/colour.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/gpu.h"
@@ -128,7 +129,7 @@ bool timed(Work& work, const RenderOptions& options, const Run& run) {
     if (!done) return false;
     result.samples = done->samples;
     result.complete = done->complete;
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.seconds = seconds_since(start);
     return true;
 }
 
@@ -290,7 +291,7 @@ Rendering render(const Display& display, const Geometry& geometry, const Texels&
     const auto start = std::chrono::steady_clock::now();
     const SummedPanel summed(panel, options.threads);
     const std::vector<optics::SummedImage>& planes = planes_of(summed, panel_reading(display));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = seconds_since(start);
     Rendering result = render(display, geometry, planes, nullptr, options, job);
     if (planes[0].sums) result.prepare_seconds = seconds;
     return result;

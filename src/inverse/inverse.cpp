@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/on_threads.h"
+#include "base/seconds.h"
 #include "content/pictures/field_picture.h"
 #include "engine/devices/memory.h"
 #include "engine/render.h"
@@ -27,9 +28,6 @@ constexpr double fewest_rows = 2, fewest_rays = 20;  // for each panel pixel met
 constexpr std::int64_t content_samples = 16, held_out_content_samples = 64, held_out_rays = 512;
 constexpr int patience = 5;             // steps after which held-out eyes must have gained ...
 constexpr double least_gain_db = 0.01;  // ... this much, or the fit ends
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Returns a panel picture as the unknowns of a fit, cut to 0 .. 1.
 PanelVector vector_of(const Image& image) {
@@ -134,7 +132,7 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     double waited_from = report.held_out.psnr_db;
     int waited = 0;
     const int steps = int(request.keys().iterations);
-    const auto begun = Clock::now();
+    const auto begun = std::chrono::steady_clock::now();
     for (int step = 1; step <= steps && !request.job.cancelled(); ++step) {
         const std::string so_far = held_out ? fmt::format(", held-out eyes {:.2f} dB", report.held_out.psnr_db) : "";
         const double left = seconds_since(begun) * (steps - step + 1) / std::max(step - 1, 1);
@@ -185,7 +183,7 @@ double memory_for_rays(const Request& request, const Display& seen) {
 /// it begins, if there is one; it is the result, not complete, if the job is cancelled before the first step.
 InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<const Eye> held_out_eyes, const EyeCounts& counts,
                   std::int64_t rays, const std::optional<Picture>& traced, InverseReport report) {
-    const auto start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     Job& job = request.job;
     const Inverse& keys = request.keys();
     const auto stopped = [&] {

@@ -1,6 +1,7 @@
 #include "analysis/core/figure_json.h"
 #include "analysis/core/measure.h"
 #include "analysis/pictures/views.h"
+#include "base/seconds.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/memory.h"
 #include "files/description/display_file.h"
@@ -133,7 +134,7 @@ std::shared_ptr<Measured> analyze(const Display& display, const std::string& nam
         job.stage("analyzing", measure.steps(subject));
         const auto start = std::chrono::steady_clock::now();
         made->result = measure.run(subject, job);
-        made->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        made->seconds = seconds_since(start);
     });
     return made;
 }

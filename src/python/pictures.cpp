@@ -1,6 +1,7 @@
 #include "analysis/core/elemental_panel.h"
 #include "analysis/pictures/shown_content.h"
 #include "base/counted.h"
+#include "base/seconds.h"
 #include "content/content.h"
 #include "engine/devices/memory.h"
 #include "engine/render.h"
@@ -141,7 +142,7 @@ nb::typed<nb::tuple, Pictured, Notes, double> render(const Display& display, con
         const auto seen = [&](const auto& shown) {
             const auto start = std::chrono::steady_clock::now();
             made.image = lfdsim::render(display, geometry, shown, options, job).image;
-            seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            seconds = seconds_since(start);
         };
         if (panel) return seen(panel->shown.summed());
         if (pixels) return seen(texels_of(*pixels, display.panel.encoding, "panel"));

@@ -1,4 +1,5 @@
 #include "base/constants.h"
+#include "base/seconds.h"
 #include "cli/bench/bench.h"
 #include "cli/bench/bench_cases.h"
 #include "cli/options/panel_source.h"
@@ -135,9 +136,9 @@ std::vector<Spent> points_of(const BenchView& view, const Image& truth, Bench& b
         cases.push_back({fmt::format("{}, {} samples", p.estimator->name, p.samples), [&](Job& job) {
                              const auto start = std::chrono::steady_clock::now();
                              const Rendering r = view.rendered(bench, *p.estimator, p.samples, view.display.render.seed, job);
-                             const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+                             const double seconds = seconds_since(start);
                              if (r.complete) p.error = error_of(r.image, truth);
-                             return Run{seconds.count(), double(r.samples)};
+                             return Run{seconds, double(r.samples)};
                          }});
     const std::vector<Timing> times = bench.measure("estimators", cases);
     points.resize(times.size());  // a signal may have left out the last cases

@@ -1,3 +1,4 @@
+#include "base/seconds.h"
 #include "cli/bench/bench.h"
 #include "cli/bench/bench_cases.h"
 #include "cli/output/temporary_folder.h"
@@ -121,7 +122,7 @@ void bench_paper(Bench& bench) {
     const auto timed = [](const std::vector<std::string>& arguments, Job& job) {
         const auto start = std::chrono::steady_clock::now();
         const std::string text = Child(arguments).finish(job);
-        return std::pair(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), text);
+        return std::pair(seconds_since(start), text);
     };
     const std::vector<Timing> all = bench.measure("paper", {{"start of the program",
                                                              [&](Job& job) {

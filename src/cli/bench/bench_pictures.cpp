@@ -1,3 +1,4 @@
+#include "base/seconds.h"
 #include "cli/bench/bench.h"
 #include "cli/bench/bench_cases.h"
 #include "cli/output/temporary_folder.h"
@@ -19,7 +20,7 @@ std::function<Run(Job&)> timed(Work work) {
     return [work](Job&) {
         const auto start = std::chrono::steady_clock::now();
         work();
-        return Run{std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), pixels};
+        return Run{seconds_since(start), pixels};
     };
 }
 

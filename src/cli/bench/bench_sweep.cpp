@@ -1,4 +1,5 @@
 #include "analysis/pictures/views.h"
+#include "base/seconds.h"
 #include "cli/bench/bench.h"
 #include "cli/bench/bench_cases.h"
 #include "engine/devices/devices.h"
@@ -72,8 +73,7 @@ void bench_sweep(Bench& bench) {
                              for (int n = 1; n < s.at_once; ++n) others.push_back(std::async(std::launch::async, compare_some));
                              compare_some();
                              for (auto& other : others) other.get();
-                             const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-                             return Run{seconds.count(), double(done)};
+                             return Run{seconds_since(start), double(done)};
                          }});
     if (sweeps.size() > 1) {  // the first views wait for panel, photographs and memory
         Job quiet;

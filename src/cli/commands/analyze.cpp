@@ -1,6 +1,7 @@
 #include "analysis/core/measure.h"
 #include "analysis/pictures/views.h"
 #include "base/printable.h"
+#include "base/seconds.h"
 #include "cli/options/display_options.h"
 #include "cli/options/panel_source.h"
 #include "cli/options/variants.h"
@@ -147,7 +148,7 @@ struct Analysis {
             const auto start = std::chrono::steady_clock::now();
             if (auto problem = refusal(m, subject.display())) throw InputError(std::vector{std::move(*problem)});
             const Result result = m.run(subject, progress);
-            folder.write(m, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            folder.write(m, result, seconds_since(start));
         } catch (const InputError& e) {  // this measure does not suit the display or the options; others may
             about.failed.emplace_back(&m, e.what());
             problems.insert(problems.end(), e.problems.begin(), e.problems.end());

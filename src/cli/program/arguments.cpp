@@ -1,6 +1,7 @@
 #include "cli/program/arguments.h"
 
 #include "base/printable.h"
+#include "base/whole_text.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,16 +16,6 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view option, std::string_view given, std::string_view allowed) {
     throw InputError(std::string(option), fmt::format("\"{}\" is not possible; {}", shortened(given), allowed));
-}
-
-// Returns the number that the whole text is. from_chars() has no locale and accepts no leading blanks, plus sign, or hexadecimal or
-// octal forms.
-template <class T>
-std::optional<T> whole_text(std::string_view text) {
-    T value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return {};
-    return value;
 }
 
 std::optional<double> finite(std::string_view text) {

@@ -1,6 +1,7 @@
 // Casting of the rays of a picture, in packets, on all threads. Floor 2, internal to content.
 #pragma once
 #include "base/on_threads.h"
+#include "base/seconds.h"
 #include "content/pictures/ray_block.h"
 
 #include <oneapi/tbb/blocked_range2d.h>
@@ -117,7 +118,7 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
             }
         });
     });
-    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    out.seconds = seconds_since(start);
     out.rays = cast;
     out.dark = dark;
     out.complete = !stopped;

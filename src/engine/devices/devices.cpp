@@ -1,10 +1,10 @@
 #include "engine/devices/devices.h"
 
 #include "base/job.h"
+#include "base/whole_text.h"
 #include "engine/devices/gpu.h"
 #include "engine/render.h"
 
-#include <charconv>
 #include <cstdlib>
 
 namespace lfdsim {
@@ -64,10 +64,8 @@ namespace {
 std::optional<int> gpu_number(const std::string& word) {
     if (word == "cuda") return 0;
     if (word.rfind("cuda:", 0) != 0) return {};
-    int n = -1;
-    const char *from = word.data() + 5, *to = word.data() + word.size();
-    const auto [end, error] = std::from_chars(from, to, n);
-    return error == std::errc() && end == to && n >= 0 ? std::optional(n) : std::nullopt;
+    const std::optional<int> n = whole_text<int>(std::string_view(word).substr(5));
+    return n >= 0 ? n : std::nullopt;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "engine/views/compare_view.h"
 
 #include "base/input_error.h"
+#include "base/seconds.h"
 #include "display/colour.h"
 #include "engine/devices/gpu.h"
 #include "engine/estimator/panel_planes.h"
@@ -23,7 +24,6 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
                           float gain, const RenderOptions& options, Job& job) {
     if (options.target_error) throw std::invalid_argument("views are compared without a target error");
     const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
     const std::vector<optics::SummedImage>& planes = planes_of(panel, panel_reading(display));
     const Work work(by_points(display), geometry, planes, options, job);
     const Image& photograph = expected.photograph();
@@ -36,7 +36,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     Display shown = display;
     if (device.gpu && !disperses(display) && estimator_of(display) != Estimator::lens_by_lens) {
         if (const auto done = compare_on_gpu(device, panel, planes, expected, gain, work, job))
-            return {done->likeness, done->run.done.complete, seconds(), done->run.seconds};
+            return {done->likeness, done->run.done.complete, seconds_since(start), done->run.seconds};
         on_cpu.device = "cpu";  // by the GPU's points, so with the same bits
         shown = by_points(display);
     }
@@ -44,7 +44,7 @@ ComparedView compare_view(const Display& display, const Geometry& geometry, cons
     ComparedView result;
     result.complete = view.complete;
     if (view.complete) result.likeness = likeness(std::move(view.image), gain, photograph, expected.screen, expected.content);
-    result.seconds = seconds();
+    result.seconds = seconds_since(start);
     return result;
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
+#include "base/whole_text.h"
 #include "display/keys.h"
 #include "files/description/override_hint.h"
 #include "files/description/text_file.h"
@@ -27,10 +27,8 @@ std::vector<std::string_view> split(std::string_view path) {
 
 // Returns the index that a part of a path means in a list; none beyond its end, as an override changes elements and adds none.
 std::optional<std::size_t> element(std::string_view part, const toml::array& array) {
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-    if (error != std::errc{} || end != part.data() + part.size() || index >= array.size()) return std::nullopt;
-    return index;
+    const std::optional<std::size_t> index = whole_text<std::size_t>(part);
+    return index && *index < array.size() ? index : std::nullopt;
 }
 
 // Whether a part of a path is a number. No key is one: in a table it means an element of a list that does not exist.

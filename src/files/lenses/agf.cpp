@@ -1,12 +1,12 @@
 #include "files/lenses/agf.h"
 
 #include "base/printable.h"
+#include "base/whole_text.h"
 #include "files/description/decode.h"
 #include "files/description/nearest.h"
 #include "files/description/text_file.h"
 
 #include <fmt/format.h>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -33,10 +33,8 @@ std::vector<std::string_view> words_of(std::string_view line) {
 /// Returns the finite number that the whole word is; nothing if it is none.
 std::optional<double> number(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return {};
-    return value;
+    const std::optional<double> value = whole_text<double>(word);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// A glass as its lines give it.

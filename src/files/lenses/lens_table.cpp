@@ -1,7 +1,9 @@
 #include "files/lenses/lens_table.h"
 
+#include "base/constants.h"
 #include "base/counted.h"
 #include "base/printable.h"
+#include "base/whole_text.h"
 #include "files/description/nearest.h"
 #include "files/description/text_file.h"
 #include "geometry/geometry.h"
@@ -10,7 +12,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -112,9 +113,8 @@ class TableReader {
         double values[column_count];
         for (std::size_t k = 0; k < column_count; ++k) {
             double& value = values[order_[k]];
-            const std::string_view word = words[k].starts_with('+') ? words[k].substr(1) : words[k];
-            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-            if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
+            value = whole_text<double>(words[k].starts_with('+') ? words[k].substr(1) : words[k]).value_or(nan);
+            if (!std::isfinite(value))
                 return refuse("{} is \"{}\"; give a finite number", table_columns[order_[k]], shortened(words[k]));
             if (std::abs(value) > 1e6) return refuse("{} is {}; at most 1e6", table_columns[order_[k]], value);
         }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -11,6 +10,7 @@
 
 #include "base/counted.h"
 #include "base/printable.h"
+#include "base/whole_text.h"
 #include "files/description/decode.h"
 #include "files/description/nearest.h"
 #include "files/lenses/drawn_lens.h"
@@ -96,10 +96,8 @@ class ZmxReader {
     }
 
     void begin_surface() {
-        std::size_t number = 0;
         const std::string_view given = words.size() > 1 ? words[1] : "";
-        const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), number);
-        if (error != std::errc() || end != given.data() + given.size() || number != surfaces.size()) {
+        if (whole_text<std::size_t>(given) != surfaces.size()) {
             refuse(line, "SURF {}, where surface {} should begin; a part of the file is missing", shortened(given),
                    surfaces.size());
             throw InputError(std::move(problems));
@@ -108,6 +106,7 @@ class ZmxReader {
             refuse(line, "has more than {} surfaces", most_surfaces_of_zmx);
             throw InputError(std::move(problems));
         }
+        const std::size_t number = surfaces.size();
         surfaces.emplace_back().line = line;
         given_of_surface.clear();
         surfaces.back().drawn.place = fmt::format("{}:{}: surface {}", name, line, number);
@@ -118,10 +117,8 @@ class ZmxReader {
     double number(std::size_t i) {
         std::string given(i < words.size() ? words[i] : "");
         std::ranges::replace(given, ',', '.');
-        const char* start = given.data() + (given.starts_with('+') ? 1 : 0);
-        double value = 0;
-        const auto [end, error] = std::from_chars(start, given.data() + given.size(), value);
-        if (error == std::errc() && end == given.data() + given.size() && std::isfinite(value)) return value;
+        const auto value = whole_text<double>(std::string_view(given).substr(given.starts_with('+') ? 1 : 0));
+        if (value && std::isfinite(*value)) return *value;
         refuse(line, "{}{} {}", here(), words[0],
                given.empty() ? fmt::format("has {} of its values; the line is cut", i - 1)
                              : fmt::format("\"{}\" is not a finite number", shortened(given)));

@@ -2,13 +2,13 @@
 // rows and columns in names.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <regex>
 #include <sstream>
 
 #include "base/constants.h"
 #include "base/counted.h"
+#include "base/whole_text.h"
 #include "files/description/text_file.h"
 #include "files/views/views_internal.h"
 
@@ -32,11 +32,7 @@ void each_file(const fs::path& folder, const Each& each) {
 }
 
 /// Returns the number that the whole text is; NaN if it is none.
-double number_of(const std::string& text) {
-    double value = nan;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size() ? value : nan;
-}
+double number_of(const std::string& text) { return whole_text<double>(text).value_or(nan); }
 
 /// The values of an INI file by their keys, whatever section they are in. What it returns is checked, or InputError is thrown.
 class Parameters {

@@ -1,5 +1,7 @@
 #include "image/formats/file.h"
 
+#include "base/whole_text.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -7,7 +9,6 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <system_error>
 
@@ -25,11 +26,8 @@ constexpr std::string_view partial_mark = ".partial-";
 std::pair<std::string_view, pid_t> partial(std::string_view name) {
     const std::size_t mark = name.rfind(partial_mark);
     if (mark == name.npos || mark == 0) return {};
-    const char *const first = name.data() + mark + partial_mark.size(), *const last = name.data() + name.size();
-    pid_t process = 0;
-    const auto [end, error] = std::from_chars(first, last, process);
-    return error == std::errc{} && end == last && process > 0 ? std::pair(name.substr(0, mark), process)
-                                                              : std::pair<std::string_view, pid_t>();
+    const pid_t process = whole_text<pid_t>(name.substr(mark + partial_mark.size())).value_or(0);
+    return process > 0 ? std::pair(name.substr(0, mark), process) : std::pair<std::string_view, pid_t>();
 }
 
 // Whether a process is writing a file: it holds the file's lock, which the system releases however that process ends. A file that

@@ -1,6 +1,7 @@
 #include "view/painting/drawing.h"
 
 #include "analysis/core/elemental_panel.h"
+#include "base/seconds.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/memory.h"
 #include "engine/render.h"
@@ -16,7 +17,6 @@ namespace lfdsim::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // A final picture that takes longer than long_seconds is preceded by a fine one.
 constexpr double coarse_seconds = 0.022, stand_in_seconds = 0.012, long_seconds = 0.15;

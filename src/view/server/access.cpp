@@ -1,9 +1,10 @@
 #include "view/server/access.h"
 
+#include "base/whole_text.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <boost/asio/ip/address.hpp>
-#include <charconv>
 #include <optional>
 #include <random>
 
@@ -41,8 +42,7 @@ std::optional<HostAndPort> split(std::string_view header) {
         if (!port.empty()) {
             if (port.front() != ':') return std::nullopt;
             port.remove_prefix(1);
-            const auto [rest, error] = std::from_chars(port.data(), port.data() + port.size(), parts.port);
-            if (error != std::errc() || rest != port.data() + port.size()) return std::nullopt;
+            parts.port = whole_text<int>(port).value_or(0);
         }
     }
     if (parts.name.empty() || parts.port < 1 || parts.port > 65535) return std::nullopt;

@@ -1,5 +1,6 @@
 #include "content/reader/limits/edited_text.h"
 
+#include "base/whole_text.h"
 #include "content/reader/places.h"
 
 #include <strings.h>
@@ -29,9 +30,7 @@ std::string_view next_word(std::string_view& line) {
 std::optional<double> next_number(std::string_view& line) {
     std::string_view word = next_word(line);
     if (word.starts_with('+')) word.remove_prefix(1);
-    double x = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
-    return error == std::errc() && end == word.data() + word.size() ? std::optional(x) : std::nullopt;
+    return whole_text<double>(word);
 }
 
 /// Decides for one line after the other whether it holds a position: after the keyword of OBJ or STL, or in OFF in as many lines
