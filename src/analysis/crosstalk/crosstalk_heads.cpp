@@ -80,19 +80,14 @@ Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
         const Estimate& e = found.percent;
         return e.value + errors * (std::isfinite(e.error) ? e.error : 0) <= tolerable_percent;  // false if it is NaN
     };
-    Limit found;
     std::size_t n = all.middle();
     if (!allowed(all.found[n])) {
         const bool rounding = worse(all.found[n]).left_to_rounding;
-        found.missing = rounding ? left_to_rounding : "the criterion is not met even in the middle";
-        return found;
+        return Limit::none(rounding ? left_to_rounding : "the criterion is not met even in the middle");
     }
     const std::size_t last = side < 0 ? 0 : all.places.size() - 1;
     while (n != last && allowed(all.found[n + std::size_t(side)])) n += std::size_t(side);
-    if (n == last) {
-        found.missing = fmt::format("the criterion is still met at {:.4g}, where the search ended", all.places[n]);
-        return found;
-    }
+    if (n == last) return Limit::none(fmt::format("the criterion is still met at {:.4g}, where the search ended", all.places[n]));
     double good = all.places[n], bad = all.places[n + std::size_t(side)];
     for (int k = 0; k < halvings; ++k) {
         const double between = 0.5 * (good + bad);

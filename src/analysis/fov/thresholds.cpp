@@ -41,8 +41,7 @@ Limit first_below(const Curve& c, double centre, int side, double level) {
         at = next;
         value = next_value;
     }
-    Limit none;
-    none.missing = fmt::format("the criterion is still met at {:.4g}, where the search ended", at);
+    Limit none = Limit::none(fmt::format("the criterion is still met at {:.4g}, where the search ended", at));
     none.holds_to = at;
     none.searched_out = true;
     return none;
@@ -51,8 +50,7 @@ Limit first_below(const Curve& c, double centre, int side, double level) {
 /// Returns the interval about the centre in which the curve is at the level or above.
 Interval about(const Curve& c, double centre, double level) {
     if (value_at(c, std::clamp(centre, c.at.front(), c.at.back())) < level) {
-        Limit none;
-        none.missing = "the criterion is not met even in the middle";
+        const Limit none = Limit::none("the criterion is not met even in the middle");
         return {none, none, true};
     }
     return known({first_below(c, centre, -1, level), first_below(c, centre, 1, level)}, centre);
@@ -66,11 +64,7 @@ double median(std::vector<double> v) {
 
 /// Returns the fall near `expected` as the curve is followed outwards to one side.
 Limit fall(const Curve& c, double expected, double reach, int side) {
-    Limit none;
-    if (!std::isfinite(expected)) {
-        none.missing = "there is no edge to look for";
-        return none;
-    }
+    if (!std::isfinite(expected)) return Limit::none("there is no edge to look for");
     // Levels inside and outside of the fall: medians of the positions from one to three reaches away
     std::vector<double> inside, outside;
     for (std::size_t k = 0; k < c.at.size(); ++k) {
@@ -78,16 +72,12 @@ Limit fall(const Curve& c, double expected, double reach, int side) {
         if (beyond < -reach && beyond >= -3 * reach) inside.push_back(c.value[k]);
         if (beyond > reach && beyond <= 3 * reach) outside.push_back(c.value[k]);
     }
-    if (inside.size() < 2 || outside.size() < 2) {
-        none.missing = fmt::format("there are too few views on both sides of the edge expected at {:.4g}", expected);
-        return none;
-    }
+    if (inside.size() < 2 || outside.size() < 2)
+        return Limit::none(fmt::format("there are too few views on both sides of the edge expected at {:.4g}", expected));
     const double top = median(inside), bottom = median(outside), level = 0.5 * (top + bottom);
-    if (top - bottom < std::max(0.02, 5 * c.error)) {
-        none.missing =
-            fmt::format("there is no clear fall about the edge expected at {:.4g}: from {:.3f} to {:.3f}", expected, top, bottom);
-        return none;
-    }
+    if (top - bottom < std::max(0.02, 5 * c.error))
+        return Limit::none(
+            fmt::format("there is no clear fall about the edge expected at {:.4g}: from {:.3f} to {:.3f}", expected, top, bottom));
     // The curve must cross the middle of both exactly once within three reaches, and that within one reach of the expected
     // position.
     std::optional<Limit> found;
@@ -99,11 +89,9 @@ Limit fall(const Curve& c, double expected, double reach, int side) {
         ++crossings;
         if (c.value[from] >= level) found = crossing(c, c.at[from], c.value[from], c.at[to], c.value[to], level);
     }
-    if (crossings != 1 || !found || std::abs(found->at - expected) > reach) {
-        none.missing = fmt::format("the curve crosses the middle of the fall expected at {:.4g} {}", expected,
-                                   crossings != 1 ? fmt::format("{} times", crossings) : "elsewhere");
-        return none;
-    }
+    if (crossings != 1 || !found || std::abs(found->at - expected) > reach)
+        return Limit::none(fmt::format("the curve crosses the middle of the fall expected at {:.4g} {}", expected,
+                                       crossings != 1 ? fmt::format("{} times", crossings) : "elsewhere"));
     found->error = std::hypot(found->error, found->at - expected);
     return *found;
 }
@@ -164,8 +152,7 @@ std::string why_missing(const Interval& i) {
 
 Interval on_side_of_zero(Interval i, bool above, const std::string& nothing_there) {
     if (i.empty) return i;
-    Limit none;
-    none.missing = nothing_there;
+    const Limit none = Limit::none(nothing_there);
     if (above ? i.high.place() <= 0 : i.low.place() >= 0) return {none, none, true};
     const Limit zero{0, 0, {}};
     if (above && i.low.place() <= 0) i.low = zero;

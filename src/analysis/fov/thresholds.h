@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lfdsim {
@@ -20,6 +21,8 @@ struct Limit {
     double holds_to = std::numeric_limits<double>::quiet_NaN();
     bool searched_out = false;  // the criterion is met to the end of the search
 
+    /// Returns a limit that was not found, for this reason.
+    static Limit none(std::string why) { return {.missing = std::move(why)}; }
     /// Returns the limit, or how far the criterion is known to be met.
     double place() const { return missing.empty() ? at : holds_to; }
 };

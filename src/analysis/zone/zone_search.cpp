@@ -22,17 +22,10 @@ Limit limit(const std::vector<double>& places, const std::vector<double>& wrong,
     const auto at = [&](int k) { return places[std::size_t(k)]; };
     // The curve, by one set, tells where to start. NaN, where no light is seen, is not good.
     const auto first_good = [&](int k) { return wrong[std::size_t(k)] <= most; };
-    Limit none;
-    if (!first_good(middle)) {
-        none.missing = "more rays are wrong even in the middle";
-        return none;
-    }
+    if (!first_good(middle)) return Limit::none("more rays are wrong even in the middle");
     int in = middle;
     while (in != last && first_good(in + step)) in += step;
-    if (in == last) {
-        none.missing = "no more rays are wrong within the searched range";
-        return none;
-    }
+    if (in == last) return Limit::none("no more rays are wrong within the searched range");
     // Returns the end where the share by all sets, plus `errors` times its error, passes `most`: the search goes back from the
     // curve's limit to a good position, on to the next bad one, and halves the step between them.
     double precision = 0;
