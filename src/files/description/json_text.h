@@ -1,7 +1,8 @@
-// JSON that users give: kinds of values in words, and keys that may be given once. Floor 2.
+// JSON that users give: parsing, with keys that may be given once, and kinds of values in words. Floor 2.
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
+#include "files/description/text_file.h"
 
 namespace lfdsim {
 
@@ -68,5 +70,20 @@ class UniqueKeys {
     std::string before_;
     std::vector<Open> open_;
 };
+
+/// Parses the JSON of a file. Throws InputError with the file's name for more than 1 MiB, for a key that is given twice, and, with
+/// the words `is_not` ("is not JSON") and the parser's, for what is not JSON.
+template <class Json>
+Json parse_json(std::string_view text, std::string_view name, std::string_view is_not) {
+    if (text.size() > largest_text_bytes)
+        throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}", text.size(), largest_text_bytes));
+    try {
+        return Json::parse(text, UniqueKeys<Json>(fmt::format("{}: ", name)));
+    } catch (const typename Json::exception& error) {
+        const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
+        const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
+        throw InputError(std::string(name), fmt::format("{}: {}", is_not, says.substr(begin, end - begin)));
+    }
+}
 
 }  // namespace lfdsim

@@ -109,16 +109,7 @@ Camera CameraPath::camera(std::int64_t frame, Camera described) const {
 CameraPath read_path(const std::filesystem::path& path) { return parse_path(read_text(path, "a camera path"), path.string()); }
 
 CameraPath parse_path(std::string_view text, std::string_view name) {
-    if (text.size() > largest_text_bytes)
-        throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}", text.size(), largest_text_bytes));
-    Json json;
-    try {
-        json = Json::parse(text, UniqueKeys<Json>(fmt::format("{}: ", name)));
-    } catch (const Json::exception& error) {
-        const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
-        const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
-        throw InputError(std::string(name), "is not a camera path in JSON: " + says.substr(begin, end - begin));
-    }
+    Json json = parse_json<Json>(text, name, "is not a camera path in JSON");
     // The head of the file.
     PathReader reader(name);
     CameraPath path;

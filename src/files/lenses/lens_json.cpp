@@ -1,12 +1,10 @@
 #include "files/lenses/lens_json.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "base/printable.h"
 #include "files/description/json_text.h"
 #include "files/description/nearest.h"
-#include "files/description/text_file.h"
 
 namespace lfdsim {
 namespace {
@@ -37,15 +35,7 @@ std::string without_bare_words(std::string text) {
 }  // namespace
 
 LensJson parse_lens_json(std::string_view text, std::string_view name) {
-    if (text.size() > largest_text_bytes)
-        throw InputError(std::string(name), fmt::format("has {} bytes, allowed are {}", text.size(), largest_text_bytes));
-    try {
-        return LensJson::parse(without_bare_words(std::string(text)), UniqueKeys<LensJson>(fmt::format("{}: ", name)));
-    } catch (const LensJson::exception& error) {
-        const std::string says = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 1: ..."
-        const std::size_t begin = says.find("] ") + 2, end = std::min(says.find("; last read"), begin + 160);
-        throw InputError(std::string(name), "is not JSON: " + says.substr(begin, end - begin));
-    }
+    return parse_json<LensJson>(without_bare_words(std::string(text)), name, "is not JSON");
 }
 
 const LensJson& member(const LensJson& json, std::string_view key) {
