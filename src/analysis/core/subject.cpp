@@ -8,6 +8,13 @@
 
 namespace lfdsim {
 
+Image whole_picture(const Display& d, const Geometry& g, const SummedPanel& panel, const RenderOptions& how, const Job& job) {
+    Quiet quiet(job);
+    Rendering r = render(d, g, panel, how, quiet);
+    if (!r.complete) throw Stopped{};
+    return std::move(r.image);
+}
+
 Subject::Subject(Display display, std::optional<ContentScene> scene, AnalysisOptions options)
     : display_(std::move(display)),
       geometry_(resolve(display_)),
@@ -45,17 +52,15 @@ double Subject::white_field(const Job& job) {
     const Display seen = seen_from(display_, 0, 0);
     const Region screen = seen_screen(seen, geometry_);
     const Rect box = screen_box(screen);
-    Quiet quiet(job);
     RenderOptions how = rendering();
     how.crop = box;
-    const Rendering r = render(seen, geometry_, panel.summed(), how, quiet);
-    if (!r.complete) throw Stopped{};
+    const Image picture = whole_picture(seen, geometry_, panel.summed(), how, job);
     // The mean over the pixels that see the screen
     double sum = 0;
     const Region part = screen.shifted(-box.x0, -box.y0);
     for (std::size_t k = 0; k < part.rows.size(); ++k)
         for (int x = part.rows[k].from; x < part.rows[k].to; ++x)
-            for (int c = 0; c < 3; ++c) sum += r.image.at(x, part.top + int(k))[c];
+            for (int c = 0; c < 3; ++c) sum += picture.at(x, part.top + int(k))[c];
     const double mean = sum / (3 * double(screen.pixels()));
     if (!(mean > 0))
         throw InputError("camera", "sees no light of a white panel from straight in front of it, so that nothing can be compared");

@@ -29,6 +29,9 @@ struct AnalysisOptions {
 /// Thrown if the caller cancels the work; nothing of the current measure is kept.
 struct Stopped {};
 
+/// Renders a picture without showing its progress. Throws Stopped.
+Image whole_picture(const Display&, const Geometry&, const SummedPanel&, const RenderOptions&, const Job&);
+
 class ShownPanel;  // elemental_panel.h
 
 /// A display under measurement, with its geometry and theory, and with what several measures need, which is computed once.

@@ -5,7 +5,6 @@
 #include "analysis/pictures/shown_content.h"
 #include "analysis/pictures/views.h"
 #include "display/keys.h"
-#include "engine/render.h"
 #include "image/scaled.h"
 
 #include <fmt/format.h>
@@ -14,15 +13,6 @@
 
 namespace lfdsim {
 namespace {
-
-/// Returns the picture of a panel, or the crop of it. Throws Stopped.
-Image picture(const Display& d, const SummedPanel& panel, RenderOptions how, std::optional<Rect> crop, const Job& job) {
-    Quiet quiet(job);
-    how.crop = crop;
-    Rendering r = render(d, resolve(d), panel, how, quiet);
-    if (!r.complete) throw Stopped{};
-    return std::move(r.image);
-}
 
 /// Returns the display without its lenses: one cell as large as the panel whose lens has hardly any power (its focal length is a
 /// kilometre), in the vertex plane.
@@ -68,6 +58,11 @@ Result measure_components(Subject& s, Job& job) {
         result.pictures.push_back({std::string("components-") + name, caption, std::move(image)});
         job.advance(1);
     };
+    const auto picture = [&](const Display& shown, const SummedPanel& panel, std::optional<Rect> crop = {}) {
+        RenderOptions how = s.rendering();
+        how.crop = crop;
+        return whole_picture(shown, resolve(shown), panel, how, job);
+    };
     const Display& d = s.display();
     const auto pixels_of_lens = [&](int axis) { return std::max(1, int(std::lround(s.theory(axis).views))); };
     const int lens_pixels = pixels_of_lens(0);
@@ -81,16 +76,16 @@ Result measure_components(Subject& s, Job& job) {
     Display lenses = d;
     lenses.diffuser.reset();
     add("lenses", fmt::format("A checkerboard of {} panel pixels through the lens array alone", fine),
-        picture(lenses, board(fine).summed(), s.rendering(), {}, job));
+        picture(lenses, board(fine).summed()));
     if (d.diffuser)
         add("diffuser", fmt::format("A checkerboard of {} panel pixels through the diffuser alone, without lenses", coarse),
-            picture(diffuser_alone(d, s.geometry()), board(coarse).summed(), s.rendering(), {}, job));
+            picture(diffuser_alone(d, s.geometry()), board(coarse).summed()));
     else
         result.remarks.push_back("The display has no diffuser.");
-    add("view", "The scene as the whole display shows it", picture(d, s.panel(job), s.rendering(), {}, job));
+    add("view", "The scene as the whole display shows it", picture(d, s.panel(job)));
     const int columns = int(d.camera.resolution[0]), rows = int(d.camera.resolution[1]);
     const Rect near = middle(columns, rows, columns / 6, rows / 6);
-    Image close = picture(d, s.panel(job), s.rendering(), near, job);
+    Image close = picture(d, s.panel(job), near);
     add("view-close", "The middle sixth of the same picture", enlarged(close, std::max(1, 960 / close.width)));
     {
         Quiet quiet(job);

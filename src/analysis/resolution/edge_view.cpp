@@ -9,7 +9,6 @@
 #include "base/constants.h"
 #include "content/pickup/pickup.h"
 #include "content/pickup/shown_points.h"
-#include "engine/render.h"
 #include "geometry/resolve.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -177,11 +176,9 @@ EdgeView edge_view(const Display& display, const Geometry& geometry, const Bars&
 }
 
 Image picture_of(const EdgeView& view, bool upright, const SummedPanel& panel, RenderOptions how, const Job& job) {
-    Quiet quiet(job);
     how.crop = view.crop;
-    Rendering r = render(view.seen, resolve(view.seen), panel, how, quiet);
-    if (!r.complete) throw Stopped{};
-    return upright ? std::move(r.image) : transposed(r.image);
+    Image picture = whole_picture(view.seen, resolve(view.seen), panel, how, job);
+    return upright ? std::move(picture) : transposed(picture);
 }
 
 }  // namespace lfdsim

@@ -5,7 +5,6 @@
 #include "analysis/pictures/views.h"
 #include "base/constants.h"
 #include "checks/depth_words.h"
-#include "engine/render.h"
 #include "geometry/camera.h"
 #include "image/sheet.h"
 
@@ -25,10 +24,7 @@ Image mean_picture(Display d, const Subject& s, const SummedPanel& panel, const 
     d.camera.pixel_filter = PixelFilter::box;
     d.render.estimator = Estimator::filtered;
     d.render.samples = fringe_samples;
-    Quiet quiet(job);
-    Rendering r = render(d, resolve(d), panel, s.rendering(), quiet);
-    if (!r.complete) throw Stopped{};
-    return std::move(r.image);
+    return whole_picture(d, resolve(d), panel, s.rendering(), job);
 }
 
 /// Returns the display with a camera, at an angle, whose frame 16 lenses about the point (0, 0, z_mm) fill.
