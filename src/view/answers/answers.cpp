@@ -100,10 +100,7 @@ Json side(const Display& display, const std::string& name) {
 /// Returns the file of the model that is shown, or that would be shown without a picture or pattern; or built-in:spheres, or
 /// scene_of_objects.
 std::string model_file(const Library& library, const Wanted& wanted, const Display& display) {
-    if (wanted.shown.kind == Shown::Kind::model)
-        return wanted.shown.name == built_in_spheres ? wanted.shown.name
-                                                     : library.file(wanted.shown.name, Library::FileKind::model).string();
-    return library.model(display);
+    return wanted.shown.kind == Shown::Kind::model ? library.shown(wanted.shown).name : library.model(display);
 }
 
 class Cancellable : public Job {

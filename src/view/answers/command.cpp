@@ -1,6 +1,5 @@
 #include "view/answers/command.h"
 
-#include "content/content.h"
 #include "files/description/shell.h"
 
 namespace lfdsim::view {
@@ -8,22 +7,10 @@ namespace {
 
 /// Returns the option for what the panel shows, " --model monkey.blend"; empty for the description's model.
 std::string shown_option(const Library& library, const Shown& shown) {
-    const Start& start = library.start();
-    switch (shown.kind) {
-        case Shown::Kind::model:
-            return " --model " + (shown.name == built_in_spheres
-                                      ? shown.name
-                                      : shell_file(library.file(shown.name, Library::FileKind::model).string()));
-        case Shown::Kind::panel_image:
-            return " --panel-image " + shell_file(library.file(shown.name, Library::FileKind::picture).string());
-        case Shown::Kind::pattern:
-            return " --pattern " + shell_word(shown.name);
-        case Shown::Kind::start:
-            break;
-    }
-    if (!start.pattern.empty()) return " --pattern " + shell_word(start.pattern);
-    if (!start.panel_image.empty()) return " --panel-image " + shell_file(start.panel_image.string());
-    return start.model.empty() ? "" : " --model " + shell_file(start.model);
+    const Shown of = library.shown(shown);
+    if (of.kind == Shown::Kind::pattern) return " --pattern " + shell_word(of.name);
+    if (of.kind == Shown::Kind::panel_image) return " --panel-image " + shell_file(of.name);
+    return of.name.empty() ? "" : " --model " + shell_file(of.name);
 }
 
 std::string words_of(const Library::Description& description) {

@@ -169,6 +169,23 @@ Library::Library(Start start, fs::path folder) : start_(std::move(start)), folde
 
 std::string Library::model(const Display& display) const { return start_.model.empty() ? model_of(display) : start_.model; }
 
+Shown Library::shown(const Shown& wanted) const {
+    using Kind = Shown::Kind;
+    switch (wanted.kind) {
+        case Kind::model:
+            return {wanted.kind, wanted.name == built_in_spheres ? wanted.name : file(wanted.name, FileKind::model).string()};
+        case Kind::panel_image:
+            return {wanted.kind, file(wanted.name, FileKind::picture).string()};
+        case Kind::pattern:
+            return {wanted.kind, wanted.name};
+        case Kind::start:
+            break;
+    }
+    if (!start_.pattern.empty()) return {Kind::pattern, start_.pattern};
+    if (!start_.panel_image.empty()) return {Kind::panel_image, start_.panel_image.string()};
+    return {Kind::model, start_.model};
+}
+
 fs::path Library::file(const std::string& name, FileKind kind) const {
     const fs::path path = folder_ / relative(name);
     if (std::error_code error; !fs::is_regular_file(resolve_inside(path, folder_, name), error))

@@ -36,6 +36,9 @@ class Library {
     /// not a plain file, does not exist, or is of another kind, by its ending; of descriptions, if it is not meant as one. Errors
     /// say nothing about the content of such a file.
     std::filesystem::path file(const std::string& name, FileKind) const;
+    /// Returns what the panel shows, never Kind::start: the name of a pattern, "built-in:spheres", or a file's path; no name for
+    /// the description's model. Throws InputError as file() does.
+    Shown shown(const Shown& wanted) const;
     /// Returns the path of a file that a page wants to write. Throws InputError for endings other than .toml, and as file() does.
     std::filesystem::path new_file(const std::string& name) const;
 

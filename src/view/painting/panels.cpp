@@ -75,21 +75,10 @@ PanelContent model_source(const std::string& name, const Display& display) {
 }
 
 PanelContent source_of(const Library& library, const Shown& shown, const Display& display) {
-    const Start& start = library.start();
-    switch (shown.kind) {
-        case Shown::Kind::model:
-            return model_source(
-                shown.name == built_in_spheres ? shown.name : library.file(shown.name, Library::FileKind::model).string(), display);
-        case Shown::Kind::panel_image:
-            return of_file(shown.kind, library.file(shown.name, Library::FileKind::picture).string());
-        case Shown::Kind::pattern:
-            return {shown.kind, shown.name};
-        case Shown::Kind::start:
-            break;
-    }
-    if (!start.pattern.empty()) return {Shown::Kind::pattern, start.pattern};
-    if (!start.panel_image.empty()) return of_file(Shown::Kind::panel_image, start.panel_image.string());
-    return model_source(library.model(display), display);
+    const Shown of = library.shown(shown);
+    if (of.kind == Shown::Kind::pattern) return {of.kind, of.name};
+    if (of.kind == Shown::Kind::panel_image) return of_file(of.kind, of.name);
+    return model_source(of.name.empty() ? library.model(display) : of.name, display);
 }
 
 // The nodal pick-up (content/pickup/pickup.h) and the model's pose (content/pictures/scene.cpp) depend on these resolved numbers

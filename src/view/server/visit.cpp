@@ -15,16 +15,16 @@ bool same_controls(const Wanted& a, const Wanted& b) { return a.display == b.dis
 Json hello(const Library& library, const std::string& version) {
     const Start& start = library.start();
     const Display display = read_display(start.display, start.set);
-    const char* const kind = !start.pattern.empty() ? "pattern" : !start.panel_image.empty() ? "panel_image" : "model";
-    const std::filesystem::path model = library.model(display);
-    const std::string shown = !start.pattern.empty()       ? start.pattern
-                              : !start.panel_image.empty() ? start.panel_image.filename().string()
-                                                           : model.filename().string();
+    const Shown shown = library.shown({});
+    const char* const kind = shown.kind == Shown::Kind::pattern       ? "pattern"
+                             : shown.kind == Shown::Kind::panel_image ? "panel_image"
+                                                                      : "model";
+    const std::filesystem::path file = shown.kind == Shown::Kind::model ? library.model(display) : shown.name;
     return {{"type", "hello"},
             {"version", version},
             {"display", start.display.filename().string()},
             {"eye_mm", display.camera.position_mm},
-            {"shown", {{"kind", "start"}, {"name", shown}, {"of", kind}}},
+            {"shown", {{"kind", "start"}, {"name", file.filename().string()}, {"of", kind}}},
             {"patterns", pattern_names()},
             {"most_pixels", most_pixels}};
 }
