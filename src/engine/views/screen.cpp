@@ -28,29 +28,12 @@ class CameraPoints {
         const double pixels = view_.distance / depth / view_.pixel_mm;  // in the frame, of a millimetre at this depth
         return std::array{0.5 * view_.width + dot(to, axes_.right) * pixels, 0.5 * view_.height - dot(to, axes_.up) * pixels};
     }
-    /// Returns where the camera sees a rectangle's corners, from the top left on, clockwise. corner(right, up) is the point of the
-    /// corner to the right (1) or left (-1), at the top (1) or bottom (-1).
-    template <class Corner>
-    std::optional<Corners> of_corners(const Corner& corner) const {
-        constexpr double right[] = {-1, 1, 1, -1}, up[] = {1, 1, -1, -1};
-        Corners corners;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const auto at = of(corner(right[k], up[k]));
-            if (!at) return {};
-            corners[k] = *at;
-        }
-        return corners;
-    }
 
   private:
     Vec3d position_;
     CameraAxes axes_;
     optics::RayOrigin view_;
 };
-
-}  // namespace
-
-namespace {
 
 using Polygon = std::vector<Point>;
 
@@ -61,6 +44,11 @@ struct HalfPlane {
     double beyond(const Point& p) const { return normal[0] * p[0] + normal[1] * p[1] - most; }
 };
 
+/// Returns a rectangle about the origin, from its top left corner on, clockwise.
+Polygon rectangle(double half_width, double half_height) {
+    return {{-half_width, half_height}, {half_width, half_height}, {half_width, -half_height}, {-half_width, -half_height}};
+}
+
 /// Returns the array's rectangle on the vertex plane, mm in the display's frame, from its top left corner on, clockwise. Quarter
 /// turns of the array exchange width and height, so that the corner called top left is at the top left.
 Polygon array_outline(const Geometry& g) {
@@ -68,12 +56,8 @@ Polygon array_outline(const Geometry& g) {
     const double c = std::cos(rest * degree), s = std::sin(rest * degree);
     double half_width = g.array_width_mm / 2, half_height = g.array_height_mm / 2;
     if (std::fmod(quarters, 2) != 0) std::swap(half_width, half_height);
-    Polygon outline;
-    constexpr double right[] = {-1, 1, 1, -1}, up[] = {1, 1, -1, -1};
-    for (std::size_t k = 0; k < 4; ++k) {
-        const double x = right[k] * half_width, y = up[k] * half_height;
-        outline.push_back({c * x - s * y + g.lattice.offset[0], s * x + c * y + g.lattice.offset[1]});
-    }
+    Polygon outline = rectangle(half_width, half_height);
+    for (Point& p : outline) p = {c * p[0] - s * p[1] + g.lattice.offset[0], s * p[0] + c * p[1] + g.lattice.offset[1]};
     return outline;
 }
 
@@ -148,12 +132,12 @@ void begin_top_left(Polygon& p) {
     std::rotate(p.begin(), first, p.end());
 }
 
-/// Returns where the camera sees the four corners of an outline on the vertex plane; nothing if one is not in front of the camera.
-std::optional<Corners> seen_corners(const Display& display, const Geometry& geometry, const Polygon& outline) {
+/// Returns where the camera sees the four corners of an outline at a height; nothing if one is not in front of the camera.
+std::optional<Corners> seen_corners(const Display& display, const Geometry& geometry, const Polygon& outline, double z_mm) {
     const CameraPoints camera(display, geometry);
     Corners corners;
     for (std::size_t k = 0; k < 4; ++k) {
-        const auto at = camera.of({outline[k][0], outline[k][1], geometry.vertex_plane_mm});
+        const auto at = camera.of({outline[k][0], outline[k][1], z_mm});
         if (!at) return {};
         corners[k] = *at;
     }
@@ -176,15 +160,14 @@ ScreenCorners screen_corners(const Display& display, const Geometry& geometry) {
                         : fmt::format("the part of its lens array in front of the panel has {} corners", outline.size())};
         begin_top_left(outline);
     }
-    const std::optional<Corners> corners = seen_corners(display, geometry, outline);
+    const std::optional<Corners> corners = seen_corners(display, geometry, outline, geometry.vertex_plane_mm);
     return {corners, corners ? "" : behind};
 }
 
 std::optional<Region> screen_region(const Display& display, const Geometry& geometry) {
-    const auto array = seen_corners(display, geometry, array_outline(geometry));
-    const auto panel = CameraPoints(display, geometry).of_corners([&](double right, double up) {
-        return Vec3d{right * geometry.panel_width_mm / 2, up * geometry.panel_height_mm / 2, 0};
-    });
+    const auto array = seen_corners(display, geometry, array_outline(geometry), geometry.vertex_plane_mm);
+    const Polygon whole = rectangle(geometry.panel_width_mm / 2, geometry.panel_height_mm / 2);
+    const auto panel = seen_corners(display, geometry, whole, 0);
     if (!array || !panel) return {};
     const int width = int(display.camera.resolution[0]), height = int(display.camera.resolution[1]);
     return Region::polygon(*array, width, height).intersected(Region::polygon(*panel, width, height));
