@@ -1,6 +1,7 @@
 #include "inverse/plan.h"
 
 #include "engine/views/panel_rays.h"
+#include "geometry/subpixels.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -63,7 +64,7 @@ EyeCounts count(const Request& request, std::span<const Eye> eyes) {
         const PanelRays rays(seen, resolve(seen));
         std::vector<PanelRay> found;
         rays.trace({0, 0, int(seen.camera.resolution[0]), int(seen.camera.resolution[1])}, found);
-        const bool subpixels = seen.panel.subpixels != SubpixelLayout::none || seen.panel.aperture_ratio < 1;
+        const bool subpixels = !lights_whole_pixels(seen.panel);
         const auto samples = std::size_t(rays.samples());
         for (std::size_t p = 0; p < found.size(); p += samples) {
             bool lit = false;

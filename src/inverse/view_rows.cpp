@@ -1,6 +1,7 @@
 #include "inverse/view_rows.h"
 
 #include "display/colour.h"
+#include "geometry/subpixels.h"
 
 #include <algorithm>
 
@@ -12,7 +13,7 @@ ViewRows::ViewRows(const Display& seen, const Geometry& geometry)
     : width_(int(seen.camera.resolution[0])),
       height_(int(seen.camera.resolution[1])),
       pixels_(entries_are_pixels(seen)),
-      subpixels_(!make_traced_display<float>(seen, geometry).emission.whole) {
+      subpixels_(!lights_whole_pixels(seen.panel)) {
     if (!disperses(seen)) {
         lights_.push_back({PanelRays(seen, geometry), -1, 1});
         return;
