@@ -16,6 +16,16 @@ std::string wrong_type(const toml::node& node, std::string_view wanted) {
     return fmt::format("is {}; give {}", kind_of(node), wanted);
 }
 
+template <class T>
+std::string read_list(const toml::node& node, std::vector<T>& values, std::string_view wanted) {
+    const toml::array* array = node.as_array();
+    if (!array) return wrong_type(node, wanted);
+    values.assign(array->size(), T{});
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::string fault = read_value((*array)[i], values[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
+    return {};
+}
+
 /// A formula of a glass, and the numbers that it takes, in words. nd and vd are two keys and no row here.
 struct GlassForm {
     Formula formula;
@@ -76,31 +86,12 @@ std::string read_value(const toml::node& node, std::string& value) {
     return {};
 }
 
-std::string read_value(const toml::node& node, std::vector<double>& values) {
-    const toml::array* array = node.as_array();
-    if (!array) return wrong_type(node, "a list of numbers");
-    values.assign(array->size(), 0);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (std::string fault = read_value((*array)[i], values[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
-    return {};
-}
-
+std::string read_value(const toml::node& node, std::vector<double>& values) { return read_list(node, values, "a list of numbers"); }
 std::string read_value(const toml::node& node, std::vector<std::string>& values) {
-    const toml::array* array = node.as_array();
-    if (!array) return wrong_type(node, "a list of strings");
-    values.assign(array->size(), "");
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (std::string fault = read_value((*array)[i], values[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
-    return {};
+    return read_list(node, values, "a list of strings");
 }
-
 std::string read_value(const toml::node& node, std::vector<Vec3d>& points) {
-    const toml::array* array = node.as_array();
-    if (!array) return wrong_type(node, "a list of points, [[x, y, z], [x, y, z]]");
-    points.assign(array->size(), {});
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (std::string fault = read_value((*array)[i], points[i]); !fault.empty()) return fmt::format("element {} {}", i, fault);
-    return {};
+    return read_list(node, points, "a list of points, [[x, y, z], [x, y, z]]");
 }
 
 std::string read_value(const toml::node& node, Glass& glass) {
@@ -190,18 +181,6 @@ std::string toml_text(std::int64_t value) { return fmt::format("{}", value); }
 
 std::string toml_text(const Pitch& value) {
     return value.is_one() ? toml_text(value[0]) : toml_text(static_cast<const std::array<double, 2>&>(value));
-}
-
-std::string toml_text(const std::vector<std::string>& values) {
-    std::string text = "[";
-    for (const std::string& value : values) text += (text.size() > 1 ? ", " : "") + toml_text(value);
-    return text + "]";
-}
-
-std::string toml_text(const std::vector<Vec3d>& points) {
-    std::string text = "[";
-    for (const Vec3d& point : points) text += (text.size() > 1 ? ", " : "") + toml_text(point);
-    return text + "]";
 }
 
 // A glass that ships, and one that has not been looked up, are written by name; others by their coefficients, so that the text can

@@ -57,18 +57,17 @@ std::string toml_text(double);
 std::string toml_text(std::int64_t);
 std::string toml_text(const std::string&);
 std::string toml_text(const Pitch&);
-std::string toml_text(const std::vector<std::string>&);
 std::string toml_text(const Glass&);
 
 template <class E>
 requires has_words<E> std::string toml_text(const E& value) { return toml_text(std::string(word(value))); }
 template <class List>
-requires std::is_arithmetic_v<typename List::value_type> std::string toml_text(const List& values) {
+requires requires { typename List::value_type; }
+std::string toml_text(const List& values) {
     std::string text = "[";
     for (const auto& value : values) text += (text.size() > 1 ? ", " : "") + toml_text(value);
     return text + "]";
 }
-std::string toml_text(const std::vector<Vec3d>&);
 template <class T>
 std::string toml_text(const std::optional<T>& value) {
     return value ? toml_text(*value) : std::string();
