@@ -1,5 +1,6 @@
 #include "files/description/decode.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace lfdsim {
@@ -72,6 +73,24 @@ std::string to_utf8(std::string_view bytes) {
     std::string text;  // the codes of Latin-1 are the first 256 of Unicode
     for (const char c : bytes) append(text, static_cast<unsigned char>(c));
     return text;
+}
+
+std::string_view next_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size()));
+    return line;
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+    constexpr std::string_view blanks = " \t";
+    std::vector<std::string_view> words;
+    for (std::size_t end = 0;;) {
+        const std::size_t begin = line.find_first_not_of(blanks, end);
+        if (begin == line.npos) return words;
+        end = std::min(line.find_first_of(blanks, begin), line.size());
+        words.push_back(line.substr(begin, end - begin));
+    }
 }
 
 }  // namespace lfdsim

@@ -19,17 +19,6 @@ constexpr std::size_t most_agf_problems = 20, longest_glass_name = 64;
 // AGF is a text of lines that begin with a word of two letters. Read are "NM name formula code n_d V_d ...", which begins a glass,
 // "CD c0 c1 ..." with the coefficients of its formula, and "LD low high", the wavelengths in micrometres for which they hold.
 
-std::vector<std::string_view> words_of(std::string_view line) {
-    constexpr std::string_view blanks = " \t";
-    std::vector<std::string_view> words;
-    for (std::size_t end = 0;;) {
-        const std::size_t begin = line.find_first_not_of(blanks, end);
-        if (begin == line.npos) return words;
-        end = std::min(line.find_first_of(blanks, begin), line.size());
-        words.push_back(line.substr(begin, end - begin));
-    }
-}
-
 /// Returns the finite number that the whole word is; nothing if it is none.
 std::optional<double> number(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
@@ -102,12 +91,7 @@ class AgfReader {
     explicit AgfReader(std::string_view name) { read_.file = name; }
 
     GlassCatalogue read(std::string_view text) {
-        for (std::size_t start = 0; start < text.size() && problems_.size() < most_agf_problems;) {
-            const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
-            read_line(text.substr(start, end - start));
-            ++line_;
-            start = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
-        }
+        for (; !text.empty() && problems_.size() < most_agf_problems; ++line_) read_line(next_line(text));
         finish();
         if (problems_.empty() && !names_) add_problem("", "has no line NM with a glass, which an AGF catalogue has");
         if (!problems_.empty()) throw InputError(std::move(problems_));

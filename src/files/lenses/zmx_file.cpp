@@ -46,11 +46,7 @@ class ZmxReader {
     ZmxReader(std::string_view all, std::string_view file) : text(all), name(file) {}
 
     DrawnLens read() {
-        for (std::size_t start = 0; start < text.size(); ++line) {
-            const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
-            read_line(text.substr(start, end - start));
-            start = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
-        }
+        for (std::string_view rest = text; !rest.empty(); ++line) read_line(next_line(rest));
         finish();
         if (!problems.empty()) throw InputError(std::move(problems));
         return std::move(lens);
@@ -65,12 +61,7 @@ class ZmxReader {
     std::string here() const { return surfaces.empty() ? std::string() : fmt::format("surface {}: ", surfaces.size() - 1); }
 
     void read_line(std::string_view content) {
-        words.clear();
-        for (std::size_t start = 0; (start = content.find_first_not_of(" \t", start)) != content.npos;) {
-            const std::size_t end = std::min(content.find_first_of(" \t", start), content.size());
-            words.push_back(content.substr(start, end - start));
-            start = end;
-        }
+        words = words_of(content);
         if (words.empty()) return;
         const std::string_view key = words[0];
         in_surface = key == "SURF" || (in_surface && (content[0] == ' ' || content[0] == '\t'));
