@@ -71,6 +71,13 @@ std::vector<Choice> even_choices(int count, std::uint32_t set) {
     return choices;
 }
 
+optics::Vec2<double> chosen_axis(const Lattice<double>& lattice, const Choice& choice) {
+    const auto number = [&](std::size_t k) {
+        return std::min(std::floor((0.5 + 0.5 * choice[4 + k]) * lattice.count[k]), lattice.count[k] - 1);
+    };
+    return optics::axis_in_array(lattice, optics::Cell<double>{number(0), number(1)});
+}
+
 EyeRays::EyeRays(const Display& d, const Geometry& g)
     : scene_(make_traced_display<double>(d, g)),
       vertex_plane_(g.vertex_plane_mm),
@@ -92,11 +99,7 @@ Sight EyeRays::look(const Vec3d& eye, const Choice& choice) const {
 
 Vec3d EyeRays::aim(const Vec3d& eye, const Choice& choice) const {
     const Lattice<double>& lattice = scene_.lattice;
-    // The lens: a number in [-1, 1] chooses one of the columns, or rows, with equal probability.
-    const auto number = [&](std::size_t k) {
-        return std::min(std::floor((0.5 + 0.5 * choice[4 + k]) * lattice.count[k]), lattice.count[k] - 1);
-    };
-    const Place axis = optics::axis_in_array(lattice, optics::Cell<double>{number(0), number(1)});
+    const Place axis = chosen_axis(lattice, choice);
     Place moved{0, 0};
     // With a diffuser, the displacement that it gives the line through the lens's axis, from its plane down to the vertex plane
     if (scene_.has_diffuser) {

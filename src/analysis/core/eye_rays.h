@@ -21,6 +21,9 @@ using Choice = std::array<double, 6>;
 /// `set` alone. Sums over different sets are independent of each other.
 std::vector<Choice> even_choices(int count, std::uint32_t set = 0);
 
+/// Returns the axis of the lens that a choice gives, in the array's frame, mm; each column and each row is as probable.
+optics::Vec2<double> chosen_axis(const Lattice<double>&, const Choice&);
+
 /// The end of a line of sight.
 struct Sight {
     bool on_screen = true;        // it aims at a point in front of the panel; if not, it is not followed and does not count

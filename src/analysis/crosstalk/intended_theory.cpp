@@ -1,6 +1,7 @@
 #include "analysis/crosstalk/intended_theory.h"
 
-#include <algorithm>
+#include "analysis/core/eye_rays.h"
+
 #include <cmath>
 
 namespace lfdsim {
@@ -9,9 +10,7 @@ namespace {
 /// Returns the position that a choice gives within the clear aperture of a lens, mm from the array's centre in its frame; nothing
 /// if the position lies in the box about the aperture only.
 std::optional<optics::Vec2<double>> in_aperture(const Geometry& g, const ApertureShape& shape, const Choice& c) {
-    const Lattice<double>& l = g.lattice;
-    const auto number = [&](std::size_t k) { return std::min(std::floor((0.5 + 0.5 * c[4 + k]) * l.count[k]), l.count[k] - 1); };
-    const auto axis = optics::axis_in_array(l, optics::Cell<double>{number(0), number(1)});
+    const auto axis = chosen_axis(g.lattice, c);
     const double height = shape.form == ApertureShape::ApertureForm::slit ? g.array_height_mm : shape.extent_mm(1);
     const double x = 0.5 * shape.extent_mm(0) * c[0], y = 0.5 * height * c[1];
     if (!shape.holds(x, y)) return {};

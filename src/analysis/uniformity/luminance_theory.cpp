@@ -1,5 +1,6 @@
 #include "analysis/uniformity/luminance_theory.h"
 
+#include "analysis/core/eye_rays.h"
 #include "analysis/crosstalk/paraxial_lines.h"
 #include "base/constants.h"
 #include "engine/scene/traced_display.h"
@@ -119,11 +120,8 @@ Means seen_means(const Display& d, const Geometry& g, double eye_mm) {
     const PanelBehind panel(g);
     Means seen{0, 0};
     double all = 0;
-    const auto number = [&](double choice, std::size_t k) {
-        return std::min(std::floor((0.5 + 0.5 * choice) * l.count[k]), l.count[k] - 1);
-    };
     for (const Choice& c : even_choices(count)) {
-        const auto axis = optics::axis_in_array(l, optics::Cell<double>{number(c[4], 0), number(c[5], 1)});
+        const auto axis = chosen_axis(l, c);
         const optics::Vec2<double> in{l.half_pitch[0] * c[0], 0.5 * l.pitch[1] * c[1]};
         // A position p by p_y about the axis but outside of the cell is taken relative to the neighbour in whose cell it lies.
         const auto centre = optics::axis_of(l, optics::cell_at(l, in.x, in.y));
