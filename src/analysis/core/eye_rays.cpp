@@ -78,6 +78,11 @@ optics::Vec2<double> chosen_axis(const Lattice<double>& lattice, const Choice& c
     return optics::axis_in_array(lattice, optics::Cell<double>{number(0), number(1)});
 }
 
+std::array<double, 2> pixel_place(const Panel& panel, const Sight& sight) {
+    return {sight.x / panel.pixel_pitch_mm + 0.5 * double(panel.pixels[0]),
+            0.5 * double(panel.pixels[1]) - sight.y / panel.pixel_pitch_mm};
+}
+
 EyeRays::EyeRays(const Display& d, const Geometry& g)
     : scene_(make_traced_display<double>(d, g)),
       vertex_plane_(g.vertex_plane_mm),

@@ -36,6 +36,9 @@ struct Sight {
     double cosines = 1;           // with ideal lenses: the cosine to the lens's axis below the lens over that above it
 };
 
+/// Returns where a line ends on the panel, pixels to the right of and below its top left corner.
+std::array<double, 2> pixel_place(const Panel&, const Sight&);
+
 /// Lines of sight of a display, with its diffuser if it has one. Eyes and points are in the display's frame, mm, if nothing else
 /// is stated.
 class EyeRays {

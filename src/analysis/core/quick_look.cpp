@@ -204,8 +204,7 @@ std::optional<ColourWave> colour_wave(const Display& d, const Geometry& g) {
         const Sight s = pupil > 0 ? rays.look_through(in_pupil, focus, c[2], c[3]) : rays.look(*eye, c);
         if (!(s.light > 0)) return;
         light += s.light;
-        const double column = s.x / d.panel.pixel_pitch_mm + 0.5 * double(d.panel.pixels[0]),
-                     row = 0.5 * double(d.panel.pixels[1]) - s.y / d.panel.pixel_pitch_mm;
+        const auto [column, row] = pixel_place(d.panel, s);
         for (BeatSum& w : waves) w.add(at, column, row, s.light);
     };
     std::optional<ColourWave> strongest;

@@ -46,8 +46,8 @@ WhiteSeen::WhiteSeen(const Display& d, const Geometry& green, const std::vector<
 WhiteSeen::End WhiteSeen::end(std::size_t path, const Vec3d& eye, double x, double y, double a, double b) const {
     const Sight sight = paths_[path].rays.look_through(eye, {x, y, vertex_plane_}, a, b);
     if (!(sight.light > 0)) return {};
-    return {sight.x / panel_.pixel_pitch_mm + 0.5 * double(panel_.pixels[0]),
-            0.5 * double(panel_.pixels[1]) - sight.y / panel_.pixel_pitch_mm, sight.light};
+    const auto [column, row] = pixel_place(panel_, sight);
+    return {column, row, sight.light};
 }
 
 void WhiteSeen::look(const Vec3d& eye, double x, double y, double a, double b, std::vector<WhiteLight>& light) const {

@@ -90,7 +90,7 @@ void SeenThroughLenses::trace(const Subject& s, const Geometry& g, const Vec3d& 
     const EyeRays rays(d, g);
     const Pickup pickup(d, s.geometry());
     const int count = lines * rays.more_for(eye);
-    const double pixel = d.panel.pixel_pitch_mm, down = vertex_mm_ - eye[2];
+    const double down = vertex_mm_ - eye[2];
     tbb::parallel_for(0, independent_sets, [&](int set) {
         std::array<double, 2> phase{};
         for (const Choice& choice : even_choices(count, set_number(d.render.seed, set))) {
@@ -98,10 +98,10 @@ void SeenThroughLenses::trace(const Subject& s, const Geometry& g, const Vec3d& 
             const Vec3d aimed = rays.aim(eye, choice);
             const Sight sight = rays.look_through(eye, aimed, choice[2], choice[3]);
             if (!(sight.light > 0)) continue;
+            const auto place = pixel_place(d.panel, sight);
             // Adds the line for pixels that are shifted by `shift` of a pixel.
             const auto add = [&](Sets& to, const std::array<double, 2>& shift) {
-                const std::optional<ShownPoint> seen = shown({sight.x / pixel + 0.5 * double(d.panel.pixels[0]) + shift[0],
-                                                              0.5 * double(d.panel.pixels[1]) - sight.y / pixel + shift[1]});
+                const std::optional<ShownPoint> seen = shown({place[0] + shift[0], place[1] + shift[1]});
                 if (!seen) return;
                 const NodalLine line = pickup.line(pickup.x_mm(seen->column - shift[0]), pickup.y_mm(seen->row - shift[1]));
                 if (!line.owned) return;  // it is black, whatever is shown

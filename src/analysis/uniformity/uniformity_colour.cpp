@@ -213,8 +213,7 @@ ColouredWhite::BlockColour ColouredWhite::look(const Vec3d& eye, const ScreenPar
             on_screen = sight.on_screen;
             if (!on_screen) break;
             if (!(sight.light > 0)) continue;
-            const ChannelPixels::Place place{sight.x / panel_.pixel_pitch_mm + 0.5 * double(panel_.pixels[0]),
-                                             0.5 * double(panel_.pixels[1]) - sight.y / panel_.pixel_pitch_mm};
+            const ChannelPixels::Place place = pixel_place(panel_, sight);
             for (std::size_t c = 0; c < 3; ++c) {
                 if (weight[c] == 0) continue;
                 if (const auto shining = pixels_[c].at(place)) sum[c] += weight[c] * sight.light * shining->brightness;

@@ -22,7 +22,6 @@ bool image_on_panel(const Pickup& pickup, const Panel& panel, const Sight& s) {
 
 SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Display& d, const Vec3d& eye,
                          std::span<const Choice> choices) {
-    const double pixel = d.panel.pixel_pitch_mm;
     std::int64_t aimed = 0, through = 0, dark = 0, wrong = 0;
     // Numbers of lines by the columns and rows from their lens to the owner of their pixel
     std::map<std::pair<long, long>, std::int64_t> towards;
@@ -40,9 +39,8 @@ SightShares sight_shares(const EyeRays& rays, const Pickup& pickup, const Displa
             continue;
         }
         ++through;
-        const double column = std::floor(s.x / pixel + 0.5 * double(d.panel.pixels[0])),
-                     row = std::floor(0.5 * double(d.panel.pixels[1]) - s.y / pixel);
-        const NodalLine owner = pickup.line(pickup.x_mm(column), pickup.y_mm(row));
+        const auto [column, row] = pixel_place(d.panel, s);
+        const NodalLine owner = pickup.line(pickup.x_mm(std::floor(column)), pickup.y_mm(std::floor(row)));
         if (s.light > 0 && owner.owned) {
             const Lattice<double>& lattice = pickup.lattice();
             // Columns are counted in halves of the pitch, since staggered rows are shifted by half of it.
