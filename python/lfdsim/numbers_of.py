@@ -6,7 +6,7 @@ import json
 import math
 from typing import Any
 
-_WORDS = {"infinite": math.inf, "-infinite": -math.inf}
+INFINITE = {"infinite": math.inf, "-infinite": -math.inf}
 
 
 def numbers_of(text: str) -> Any:
@@ -19,4 +19,4 @@ def _with_numbers(value: Any) -> Any:
         return {key: _with_numbers(each) for key, each in value.items()}
     if isinstance(value, list):
         return [_with_numbers(each) for each in value]
-    return _WORDS.get(value, value) if isinstance(value, str) else value
+    return INFINITE.get(value, value) if isinstance(value, str) else value

@@ -112,7 +112,7 @@ def _write(plan: Plan, chunk: int, records: list[Record]) -> pa.Table:
     for name in dict.fromkeys(name for r in records for name in r["tables"]):
         folder = plan.folder / "curves" / name
         folder.mkdir(parents=True, exist_ok=True)
-        files.write_table(folder / f"chunk-{chunk:06}.parquet", _curves(records, name), plan.about(chunk))
+        files.write_table(folder / f"{plan.chunk_name(chunk)}.parquet", _curves(records, name), plan.about(chunk))
     table = pa.table(
         {
             "row": pa.array([r["row"] for r in records], pa.int64()),
@@ -137,7 +137,7 @@ def _curves(records: list[Record], name: str) -> pa.Table:
 
 
 def _journals(plan: Plan, chunk: int) -> list[pathlib.Path]:
-    return sorted((plan.folder / "rows").glob(f"chunk-{chunk:06}.*.journal"))
+    return sorted((plan.folder / "rows").glob(f"{plan.chunk_name(chunk)}.*.journal"))
 
 
 def _records(plan: Plan, path: pathlib.Path) -> Iterator[tuple[int, Record]]:
@@ -159,7 +159,7 @@ def _line_sum(plan: Plan, text: bytes) -> bytes:
 
 class _Journal:
     def __init__(self, plan: Plan, chunk: int) -> None:
-        self.plan, self.path = plan, plan.folder / "rows" / f"chunk-{chunk:06}.{uuid.uuid4().hex[:12]}.journal"
+        self.plan, self.path = plan, plan.folder / "rows" / f"{plan.chunk_name(chunk)}.{uuid.uuid4().hex[:12]}.journal"
         with files.full_disk_told(self.path):
             self.file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o666)
 

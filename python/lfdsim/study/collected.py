@@ -21,7 +21,7 @@ def table_of(plan: Plan) -> pa.Table:
         return files.read_table(path, about, "remove it (it is made again from rows/), or rename it")[0]
     if path.exists() and files.note_of(path).get("about", {}).get("study") != plan.identity:
         raise StudyError(path, "is another study's; rename it or remove it")
-    missing = [c for c in range(plan.chunks) if not plan.chunk_path(c).exists()]
+    missing = plan.missing()
     if missing:
         raise StudyError(
             plan.folder,

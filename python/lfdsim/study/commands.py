@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TextIO, cast
 from .. import _core
 from . import api
 from .file import MOST_ROWS
-from .problems import StudyError, StudyFailed, counted
+from .problems import StudyError, StudyFailed, counted, most_often
 from .runs import MOST_AT_ONCE
 from .tolerances import MEASURES, Loss, tolerance
 
@@ -174,8 +174,7 @@ def _run(a: argparse.Namespace) -> int:
 
 def _tell(folder: str, table: "pandas.DataFrame") -> None:
     reasons = table["error"].dropna()
-    often = f", most often because: {reasons.value_counts().index[0]}" if len(reasons) else ""
-    print(f"{pathlib.Path(folder) / 'study.parquet'}: {counted(len(table), 'row')}, {len(reasons)} of them impossible{often}")
+    print(f"{pathlib.Path(folder) / 'study.parquet'}: {counted(len(table), 'row')}, {len(reasons)} of them impossible{most_often(reasons)}")
 
 
 def _plan(a: argparse.Namespace) -> int:

@@ -154,7 +154,7 @@ def write_table(
     """`about` is covered by the checksum; `more` (times that things took) is not."""
     note = {"about": about, "checksum": checksum(table, about), **(more or {})}
     sink = pa.BufferOutputStream()
-    kept = {k: v for k, v in (table.schema.metadata or {}).items()}
+    kept = table.schema.metadata or {}
     pq.write_table(table.replace_schema_metadata(kept | {NOTE: json.dumps(note).encode()}), sink, row_group_size=rows_per_group)
     write_whole(path, memoryview(sink.getvalue()))
 

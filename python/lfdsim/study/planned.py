@@ -54,8 +54,15 @@ class Plan:
     def rows_of(self, chunk: int) -> range:
         return range(chunk * self.rows_per_chunk, min((chunk + 1) * self.rows_per_chunk, self.rows))
 
+    def chunk_name(self, chunk: int) -> str:
+        return f"chunk-{chunk:06}"
+
     def chunk_path(self, chunk: int) -> pathlib.Path:
-        return self.folder / "rows" / f"chunk-{chunk:06}.parquet"
+        return self.folder / "rows" / f"{self.chunk_name(chunk)}.parquet"
+
+    def missing(self) -> list[int]:
+        """The chunks that are not done."""
+        return [c for c in range(self.chunks) if not self.chunk_path(c).exists()]
 
     def about(self, chunk: int) -> dict[str, Any]:
         return {"study": self.identity, "chunk": chunk}
@@ -159,10 +166,10 @@ def load(folder: str | pathlib.Path) -> Plan:
     )
     if files.digest(plan["basis"]) != known.identity or files.digest(known.study.definition) != files.digest(plan["basis"]["study"]):
         raise StudyError(path, "does not fit its own contents or study.toml beside it: one was changed by hand; give another folder")
-    if plan["basis"]["version"] != _version():
+    if plan["basis"]["version"] != lfdsim.__version__:
         raise StudyError(
             path,
-            f"was made by lfdsim {plan['basis']['version']}, and this is {_version()}: rows of both would be mixed; use "
+            f"was made by lfdsim {plan['basis']['version']}, and this is {lfdsim.__version__}: rows of both would be mixed; use "
             "that version, or another folder",
         )
     return known
@@ -259,7 +266,7 @@ def _basis(study: Study, display_text: str) -> dict[str, Any]:
     """All that rows are a function of. Comments and blanks are not."""
     display = tomllib.loads(display_text)
     return {
-        "version": _version(),
+        "version": lfdsim.__version__,
         "display": files.digest(display),
         "study": study.definition,
         "files": _digests_of_files([display, study.definition, design.texts_of_table(study)], study.display_path.parent),
@@ -282,7 +289,3 @@ def _digest_of(path: pathlib.Path) -> str:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except OSError as error:
         raise StudyError(path, f"cannot be read: {error.strerror}; the study was planned with it") from error
-
-
-def _version() -> str:
-    return str(getattr(lfdsim, "__version__", "unknown"))

@@ -5,11 +5,14 @@ from __future__ import annotations
 import difflib
 import pathlib
 from collections.abc import Iterable
-from typing import SupportsIndex
+from typing import TYPE_CHECKING, SupportsIndex
 
 from lfdsim import _core
 from lfdsim.errors import InputError
 from lfdsim.texts import path_text
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class StudyError(ValueError):
@@ -41,6 +44,11 @@ def path_of(value: object, name: str) -> pathlib.Path:
 def counted(count: int, one: str) -> str:
     """1 row, 2 rows."""
     return f"{count} {one}" if count == 1 else f"{count} {one}s"
+
+
+def most_often(reasons: "pandas.Series") -> str:
+    """The most frequent of the reasons why rows are impossible, as a further clause; nothing without any."""
+    return f", most often because: {reasons.value_counts().index[0]}" if len(reasons) else ""
 
 
 def listed(names: Iterable[str], most: int = 12) -> str:

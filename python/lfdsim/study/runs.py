@@ -34,8 +34,7 @@ def finish(
     if (plan.folder / collected.NAME).exists():
         return collected.table_of(plan)
     plan.table()  # as planned, or it is refused before work begins
-    missing = [c for c in range(plan.chunks) if not plan.chunk_path(c).exists()]
-    compute(plan, missing, dask, workers, threads, progress)
+    compute(plan, plan.missing(), dask, workers, threads, progress)
     return collected.table_of(plan)
 
 

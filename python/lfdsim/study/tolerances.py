@@ -18,7 +18,7 @@ from .columns import is_uncertainty
 from .errors import ALL, Layout
 from .factors import is_number
 from .file import MOST_ROWS, Objective
-from .problems import StudyError, counted, nearest, path_of, whole
+from .problems import StudyError, counted, most_often, nearest, path_of, whole
 
 if TYPE_CHECKING:
     import pandas
@@ -270,7 +270,7 @@ def _why_none(reasons: "pandas.Series", lost: np.ndarray) -> str:
     """Why so many draws of one block have no figure that nothing is known of the loss."""
     impossible = reasons.dropna()
     if len(impossible):
-        return f"{len(impossible)} of {counted(len(lost), 'draw')} impossible, most often because: {impossible.value_counts().index[0]}"
+        return f"{len(impossible)} of {counted(len(lost), 'draw')} impossible{most_often(impossible)}"
     return f"{int(np.isnan(lost).sum())} of {counted(len(lost), 'draw')} without the figure"
 
 

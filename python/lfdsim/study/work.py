@@ -13,12 +13,11 @@ import numpy as np
 
 import lfdsim
 from lfdsim.arguments import KEYS, seen
+from lfdsim.numbers_of import INFINITE
 
 from .factors import Value
 from .file import Measure, Picture, Study
 from .problems import StudyError, StudyFailed, nearest
-
-INFINITE = {"infinite": float("inf"), "-infinite": float("-inf")}
 
 
 @dataclasses.dataclass

@@ -11,7 +11,7 @@ import numpy as np
 from .. import files
 from . import page, plots
 from ..errors import ALL
-from ..problems import counted
+from ..problems import counted, most_often
 from ..tolerances import Tolerance
 
 if TYPE_CHECKING:
@@ -58,9 +58,8 @@ def _counts(found: Tolerance) -> list[str]:
         blocks["of all errors together" if group == ALL and scale == 1 else "of each error alone and at other sizes"] += list(block)
     for what, numbers in blocks.items():
         reasons = found.rows["error"].iloc[numbers].dropna()
-        why = f", most often because: {reasons.value_counts().index[0]}" if len(reasons) else ""
         if numbers:
-            told.append(f"{counted(len(numbers), 'draw')} {what}, {len(reasons)} of them impossible{why}.")
+            told.append(f"{counted(len(numbers), 'draw')} {what}, {len(reasons)} of them impossible{most_often(reasons)}.")
     return told
 
 
