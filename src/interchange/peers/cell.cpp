@@ -260,13 +260,6 @@ class ArrayBuilder {
         }
     }
 
-    /// Returns a height, moved a little in front of a flat face that is at the same height.
-    double before_faces(double z) const {
-        for (const PlacedSurface& s : geometry_.surfaces)
-            if (is_plane(s) && std::abs(s.z_mm - z) < solid_overlap_mm) z = s.z_mm + solid_overlap_mm;
-        return z;
-    }
-
     /// Returns the border of a stop's hole or slit.
     std::vector<Point> hole(double radius) const {
         if (!geometry_.lattice.strips) return circle(radius, 512);
@@ -281,7 +274,7 @@ class ArrayBuilder {
         const auto& surfaces = geometry_.surfaces;
         const auto add = [&](const std::vector<Ring>& rings, bool all_beside) {
             for (const Ring& ring : rings) {
-                const double z = local(before_faces(ring.z_mm));
+                const double z = local(before_faces(geometry_, ring.z_mm, solid_overlap_mm));
                 const auto same = std::find_if(surfaces.begin(), surfaces.end(),
                                                [&](const PlacedSurface& s) { return s.semi_aperture_mm == ring.radius_mm; });
                 const bool of_surface = same != surfaces.end() && !all_beside;
@@ -338,15 +331,11 @@ class ArrayBuilder {
 std::vector<Ring> black_rings(const Display& display, const Geometry& geometry) {
     if (display.array.surround != Surround::opaque) return {};
     std::vector<Ring> rings;
-    double top = -INFINITY, bottom = INFINITY;
-    for (const PlacedSurface& s : geometry.surfaces) {
-        rings.push_back({rim_z_mm(s), s.semi_aperture_mm});
-        top = std::max(top, rim_z_mm(s));
-        bottom = std::min(bottom, rim_z_mm(s));
-    }
+    for (const PlacedSurface& s : geometry.surfaces) rings.push_back({rim_z_mm(s), s.semi_aperture_mm});
+    const Rims all = rims(geometry.surfaces);
     // A surface concave to the outside lies inside the black part: light also has to pass the hole in that part's face.
-    rings.push_back({top, geometry.surfaces.back().semi_aperture_mm});
-    rings.push_back({bottom, geometry.surfaces.front().semi_aperture_mm});
+    rings.push_back({all.high, geometry.surfaces.back().semi_aperture_mm});
+    rings.push_back({all.low, geometry.surfaces.front().semi_aperture_mm});
     std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.z_mm > b.z_mm; });
     const auto same = [](const Ring& a, const Ring& b) { return a.z_mm - b.z_mm < 1e-9 && a.radius_mm == b.radius_mm; };
     rings.erase(std::unique(rings.begin(), rings.end(), same), rings.end());
@@ -356,6 +345,22 @@ std::vector<Ring> black_rings(const Display& display, const Geometry& geometry) 
 std::vector<Ring> stop_rings(const Display& display, const Geometry& geometry) {
     if (!display.lens.stop_radius_mm) return {};
     return {{geometry.stop_z_mm, *display.lens.stop_radius_mm}};
+}
+
+double before_faces(const Geometry& geometry, double z_mm, double gap_mm) {
+    for (const PlacedSurface& s : geometry.surfaces)
+        if (is_plane(s) && std::abs(s.z_mm - z_mm) < gap_mm) z_mm = s.z_mm + gap_mm;
+    return z_mm;
+}
+
+Rims rims(const std::vector<PlacedSurface>& surfaces) {
+    Rims of;
+    for (const PlacedSurface& s : surfaces) {
+        of.low = std::min(of.low, rim_z_mm(s));
+        of.high = std::max(of.high, rim_z_mm(s));
+        of.radius = std::max(of.radius, s.semi_aperture_mm);
+    }
+    return of;
 }
 
 MeshedArray mesh_array(const Display& display, const Geometry& geometry, std::int64_t triangles) {

@@ -3,6 +3,7 @@
 #include "display/display.h"
 #include "geometry/geometry.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -41,5 +42,14 @@ struct Ring {
 std::vector<Ring> black_rings(const Display&, const Geometry&);
 /// Returns the ring of the stop, if there is one.
 std::vector<Ring> stop_rings(const Display&, const Geometry&);
+/// Returns a height, moved in front of a flat face of the lenses that is nearer to it than `gap_mm`.
+double before_faces(const Geometry&, double z_mm, double gap_mm);
+
+/// The heights of the lowest rim and the highest of a lens, and the widest radius, mm.
+struct Rims {
+    double low = INFINITY, high = -INFINITY, radius = 0;
+};
+/// Returns the rims of a lens's surfaces, in their frame.
+Rims rims(const std::vector<PlacedSurface>&);
 
 }  // namespace lfdsim::peers

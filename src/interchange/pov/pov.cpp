@@ -168,12 +168,6 @@ class PovWriter {
 
     std::string face(double z) const { return fmt::format("disc {{ {}, z, {} ", vector(0, 0, z), text(100 * sheet_half(g_))); }
 
-    /// Returns the height of a black face, which is placed in front of a flat one, or of the panel, in the same plane.
-    double before_faces(double z) const {
-        for (const PlacedSurface& s : g_.surfaces)
-            if (is_plane(s) && std::abs(s.z_mm - z) < gap_mm_) z = s.z_mm + gap_mm_;
-        return z;
-    }
     /// Returns the height of a black part, which may end in the plane of a flat face, but not in that of the panel.
     double above_panel(double z) const { return std::max(z, gap_mm_); }
 
@@ -183,7 +177,7 @@ class PovWriter {
     std::string lens() const {
         std::string parts;
         const auto& surfaces = g_.surfaces;
-        for (const Ring& r : stop_rings(d_, g_)) parts += ring(before_faces(r.z_mm), r.radius_mm, black());
+        for (const Ring& r : stop_rings(d_, g_)) parts += ring(before_faces(g_, r.z_mm, gap_mm_), r.radius_mm, black());
         if (d_.array.surround == Surround::clear) {
             if (parts.empty()) return body();
             parts += body();
@@ -204,12 +198,7 @@ class PovWriter {
 
     std::string black_parts() const {
         std::string parts;
-        double widest = 0, low = INFINITY, high = -INFINITY;
-        for (const PlacedSurface& s : g_.surfaces) {
-            widest = std::max(widest, s.semi_aperture_mm);
-            low = std::min(low, rim_z_mm(s));
-            high = std::max(high, rim_z_mm(s));
-        }
+        const auto [low, high, widest] = rims(g_.surfaces);
         for (const Ring& r : black_rings(d_, g_))
             if (beside_hole(r.radius_mm)) parts += ring(above_panel(r.z_mm), r.radius_mm, black());
         if (d_.array.aperture == Aperture::circle) {
@@ -285,7 +274,7 @@ class PovWriter {
         const std::vector<Ring> rings = black_rings(d_, g_);
         std::vector<double> heights;
         if (!rings.empty()) heights = {above_panel(rings.front().z_mm), above_panel(rings.back().z_mm)};
-        for (const Ring& r : stop_rings(d_, g_)) heights.push_back(before_faces(r.z_mm));
+        for (const Ring& r : stop_rings(d_, g_)) heights.push_back(before_faces(g_, r.z_mm, gap_mm_));
         std::string flats;
         for (const double z : heights) {
             all += beside(z, black()) + " transform { Place } }\n";
@@ -361,7 +350,7 @@ class PovWriter {
         }
         all += fmt::format("  {}{} transform {{ Place }}\n}}\n", between(flats), medium(index));
         for (const Ring& r : stop_rings(d_, g_)) {
-            const double z = before_faces(r.z_mm);
+            const double z = before_faces(g_, r.z_mm, gap_mm_);
             all += beside(z, black()) + " transform { Place } }\n";
             if (const std::string rest = between(ring(z, 0, black())); !rest.empty())
                 all += fmt::format("object {{ {} transform {{ Place }} }}\n", rest);

@@ -3,8 +3,8 @@
 #include "base/constants.h"
 #include "engine/scene/misalignment.h"
 #include "geometry/lens_misalignment.h"
-#include "geometry/prescription.h"
 #include "interchange/meshed/cell_sides.h"
+#include "interchange/peers/cell.h"
 #include "interchange/pov/pov_matter.h"
 #include "optics/lattice.h"
 
@@ -28,9 +28,7 @@ PovLenses::PovLenses(const Display& d, const Geometry& g) : d_(d), g_(g), cell_(
     // A tilted column reaches as far aside as its width, its displacement and the tilt at its lowest and highest points make it.
     const std::vector<LensError> errors = lenses_as_built(d, g.lattice);
     const bool filled = d.array.aperture == Aperture::cell;
-    double widest = 0;
-    for (const PlacedSurface& s : g.surfaces) widest = std::max(widest, s.semi_aperture_mm);
-    const double half = filled ? (cell_.strips() ? cell_.half()[0] : cell_.outer_radius()) : widest;
+    const double half = filled ? (cell_.strips() ? cell_.half()[0] : cell_.outer_radius()) : rims(g.surfaces).radius;
     const double deep = std::max(g.vertex_plane_mm - g.base_z_mm, g.top_z_mm - g.vertex_plane_mm);
     const std::int64_t columns = cell_.last(0) + 1;
     for (std::size_t k = 0; k < errors.size(); ++k) {
@@ -175,12 +173,7 @@ std::optional<std::array<double, 2>> PovLenses::walls() const {
     double low = -INFINITY, high = INFINITY, step = 0;
     for (std::size_t k = 0; k < count(); ++k) {
         const PovLens& s = lenses_[k];
-        double top = -INFINITY, bottom = INFINITY, wide = 0;
-        for (const PlacedSurface& of : surfaces(k)) {
-            top = std::max(top, rim_z_mm(of));
-            bottom = std::min(bottom, rim_z_mm(of));
-            wide = std::max(wide, of.semi_aperture_mm);
-        }
+        auto [bottom, top, wide] = rims(surfaces(k));
         if (filled) wide = std::min(wide, cell_.strips() ? cell_.half()[0] : cell_.outer_radius());
         // The lowest point of the highest rim and the highest of the lowest, of a lens tilted about its vertex
         const double v = g_.vertex_plane_mm, own = v + s.error.height_mm - s.raised;

@@ -1,6 +1,6 @@
 #include "interchange/pov/pov_misaligned.h"
 
-#include "geometry/prescription.h"
+#include "interchange/peers/cell.h"
 #include "interchange/pov/pov_lenses.h"
 #include "interchange/pov/pov_limits.h"
 #include "interchange/pov/pov_matter.h"
@@ -68,20 +68,6 @@ class Placed {
                                  pov_faces_up(s) ? "Black" : "Clear", text(s.index_below));
         }
         return "union {\n" + parts + " ";
-    }
-
-    /// The heights of the lowest rim and the highest, and the widest radius, in the lens's frame.
-    struct Rims {
-        double low = INFINITY, high = -INFINITY, radius = 0;
-    };
-    static Rims rims(const std::vector<PlacedSurface>& surfaces) {
-        Rims of;
-        for (const PlacedSurface& s : surfaces) {
-            of.low = std::min(of.low, rim_z_mm(s));
-            of.high = std::max(of.high, rim_z_mm(s));
-            of.radius = std::max(of.radius, s.semi_aperture_mm);
-        }
-        return of;
     }
 
     bool filled() const { return d_.array.aperture == Aperture::cell; }
