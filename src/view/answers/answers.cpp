@@ -43,10 +43,9 @@ Json json_of(const std::vector<Problem>& problems) {
 }
 
 /// Returns the display as described, without the page's settings; `display` where that is not valid with this eye.
-Display described(const Library& library, Wanted wanted, const Display& display) {
-    wanted.set.clear();
+Display described(const Library& library, const Wanted& wanted, const Display& display) {
     try {
-        return library.display(wanted);
+        return library.display(wanted.without_settings());
     } catch (const InputError&) {
         return display;
     }
@@ -169,6 +168,10 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
 
 }  // namespace
 
+Json problems_message(std::int64_t id, const std::vector<Problem>& problems) {
+    return in_utf8({{"type", "problems"}, {"id", id}, {"problems", json_of(problems)}});
+}
+
 Json resolved(const Library& library, const Wanted& wanted) {
     try {
         const Display display = library.display(wanted);
@@ -183,13 +186,12 @@ Json resolved(const Library& library, const Wanted& wanted) {
                         {"warnings", verdicts_and_advice(display, geometry, paraxial)},
                         {"command", command(library, wanted)}});
     } catch (const InputError& error) {
-        return in_utf8({{"type", "problems"}, {"id", wanted.id}, {"problems", json_of(error.problems)}});
+        return problems_message(wanted.id, error.problems);
     }
 }
 
 Json answer(const Library& library, Panels& panels, const Wanted& wanted, const Ask& ask, const std::function<bool()>& cancelled) {
-    constexpr const char* whats[] = {"probe", "side", "plot", "files", "toml", "save", "exr"};
-    const std::string what = whats[std::size_t(ask.what)];
+    const std::string what(question_words.begin()[std::size_t(ask.what)]);
     Json answer{{"type", "answer"}, {"id", ask.id}, {"what", what}, {"problems", Json::array()}};
     const auto problem = [&](const std::string& where, const std::string& wrong) {
         answer["problems"] = json_of({{where, wrong}});

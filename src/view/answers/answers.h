@@ -12,6 +12,9 @@ namespace lfdsim::view {
 
 using Json = nlohmann::ordered_json;
 
+/// Returns the message "problems" for the state with this number.
+Json problems_message(std::int64_t id, const std::vector<Problem>&);
+
 /// Returns the message "resolved" or, for a display that is not valid, "problems": docs/view-protocol.md.
 Json resolved(const Library&, const Wanted&);
 

@@ -24,9 +24,7 @@ std::string words_of(const Library::Description& description) {
 std::string command(const Library& library, const Wanted& wanted) {
     std::string text, shown = shown_option(library, wanted.shown);
     if (wanted.shown.hold && !shown.starts_with(" --panel-image")) {
-        Wanted described = wanted;
-        described.set.clear();
-        text = "lfdsim eia " + words_of(library.description(described)) + shown + " -o eia.png && ";
+        text = "lfdsim eia " + words_of(library.description(wanted.without_settings())) + shown + " -o eia.png && ";
         shown = " --panel-image eia.png";
     }
     const auto render = [&](int eye, const char* picture) {

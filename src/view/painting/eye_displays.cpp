@@ -19,9 +19,7 @@ EyeDisplay of_eye(const Library& library, const Wanted& wanted, const char* lane
     const Geometry geometry = resolve(display);
     EyeDisplay one{lane, display, geometry, display, geometry, source_of(library, wanted.shown, display), {}, {}};
     if (wanted.shown.hold) {
-        Wanted described = wanted;
-        described.set.clear();
-        one.made_for = library.display(described);
+        one.made_for = library.display(wanted.without_settings());
         one.made_for_geometry = resolve(one.made_for);
         const auto& made = one.made_for.panel.pixels;
         if (made != display.panel.pixels)

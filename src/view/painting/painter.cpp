@@ -1,5 +1,6 @@
 #include "view/painting/painter.h"
 
+#include "view/answers/answers.h"
 #include "view/painting/drawing.h"
 #include "view/painting/painter_job.h"
 
@@ -203,10 +204,6 @@ void Painter::Impl::send(Drawing::Frames frames) {
     shown = true;
 }
 
-void Painter::Impl::tell_problems(const std::vector<Problem>& problems) {
-    nlohmann::ordered_json json{{"type", "problems"}, {"id", now.id}, {"problems", nlohmann::ordered_json::array()}};
-    for (const Problem& p : problems) json["problems"].push_back({{"key", p.where}, {"what", p.what}});
-    outbox.text(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-}
+void Painter::Impl::tell_problems(const std::vector<Problem>& problems) { outbox.text(problems_message(now.id, problems).dump()); }
 
 }  // namespace lfdsim::view

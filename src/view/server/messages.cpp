@@ -145,7 +145,7 @@ Wanted wanted(Object& object) {
 Ask ask(Object& object) {
     Ask a;
     a.id = whole(object.at("id"), "id", 0, largest_id);
-    a.what = Ask::What(choice(object.at("what"), "what", {"probe", "side", "plot", "files", "toml", "save", "exr"}));
+    a.what = Ask::What(choice(object.at("what"), "what", question_words));
     const auto name_of = [&](std::initializer_list<std::string_view> names) {
         return std::string(names.begin()[choice(object.at("name"), "name", names)]);
     };

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -38,6 +39,13 @@ struct Wanted {
     Beside beside = Beside::none;
     bool moving = false;  // further states will follow soon: a coarse picture is enough
     bool operator==(const Wanted&) const = default;
+
+    /// Returns the state with the display as its description has it.
+    Wanted without_settings() const {
+        Wanted described = *this;
+        described.set.clear();
+        return described;
+    }
 };
 
 /// Whether two states are the same, apart from id and `moving`.
@@ -57,6 +65,8 @@ struct Ask {
     bool overwrite = false;      // save
     double width = plot_width;   // plot: pixels
 };
+/// The words for Ask::What, in its order.
+inline constexpr std::initializer_list<std::string_view> question_words{"probe", "side", "plot", "files", "toml", "save", "exr"};
 
 using Message = std::variant<Wanted, Ask>;
 
