@@ -71,6 +71,11 @@ Image filled(const AnyPixels& pixels, Encoding encoding, bool panel, const std::
 
 }  // namespace
 
+std::optional<Rect> rect_of(const std::optional<CropBox>& c) {
+    if (!c) return {};
+    return Rect{(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
+}
+
 std::int64_t rows_of(const AnyPixels& pixels) {
     return std::visit([](const auto& p) { return std::int64_t(p.shape(0)); }, pixels);
 }

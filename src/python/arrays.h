@@ -5,6 +5,8 @@
 
 #include <nanobind/ndarray.h>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,6 +18,10 @@ using Pixels = nanobind::ndarray<const Value, nanobind::shape<-1, -1, 3>, nanobi
 
 /// A picture that Python passes: linear light as float, or 8-bit or 16-bit code values.
 using AnyPixels = std::variant<Pixels<float>, Pixels<std::uint8_t>, Pixels<std::uint16_t>>;
+
+/// A part of a picture that Python passes: columns x0 to x1 - 1, rows y0 to y1 - 1, as (x0, y0, x1, y1).
+using CropBox = std::array<int, 4>;
+std::optional<Rect> rect_of(const std::optional<CropBox>&);
 
 std::int64_t rows_of(const AnyPixels&);
 std::int64_t columns_of(const AnyPixels&);

@@ -34,7 +34,7 @@ Corners screen_corners(const Display& display) {
 /// Lays a photograph over a view and compares them. Both corners are those of the screen, in pixels of their picture; `crop` is a
 /// part of the view; `linear`: the photograph's codes are linear light, else sRGB. Throws InputError.
 Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& corners, const Corners& view_corners,
-                const std::optional<std::array<int, 4>>& crop, bool linear, bool fit_corners, bool fit_blur) {
+                const std::optional<CropBox>& crop, bool linear, bool fit_corners, bool fit_blur) {
     const auto columns = int(columns_of(view)), rows = int(rows_of(view));
     check_near("corners_px", corners, "the photograph", int(columns_of(photo)), int(rows_of(photo)), 0.5);
     check_near("view_corners_px", view_corners, "the view", columns, rows, 100);
@@ -42,8 +42,7 @@ Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& co
     check_corners("view_corners_px", view_corners);
     require_memory("view", fmt::format("mapping a photograph onto {} x {} pixels", columns, rows),
                    overlay_bytes(columns, rows) + picture_bytes(columns_of(photo), rows_of(photo)));
-    OverlayOptions options{fit_corners, fit_blur};
-    if (crop) options.part = Rect{(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
+    OverlayOptions options{fit_corners, fit_blur, rect_of(crop)};
     const Encoding encoding = linear ? Encoding::linear : Encoding::srgb;
     Overlay made;
     run(nb::none(), [&](Job& job) {

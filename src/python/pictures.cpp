@@ -31,13 +31,6 @@ namespace {
 
 namespace nb = nanobind;
 
-using Corners = std::array<int, 4>;  // columns x0 to x1 - 1, rows y0 to y1 - 1
-
-std::optional<Rect> rect_of(const std::optional<Corners>& c) {
-    if (!c) return {};
-    return Rect{(*c)[0], (*c)[1], (*c)[2], (*c)[3]};
-}
-
 using Notes = std::vector<std::string>;
 
 /// A picture, and the warnings of making it.
@@ -84,7 +77,7 @@ nb::typed<nb::tuple, Pictured, Notes> invert_pictures(const Display& display, co
     return made.objects();
 }
 
-nb::typed<nb::tuple, Pictured, Notes> photograph(const Display& display, const std::optional<Corners>& crop, int threads,
+nb::typed<nb::tuple, Pictured, Notes> photograph(const Display& display, const std::optional<CropBox>& crop, int threads,
                                                  const nb::object& progress) {
     PictureWithWarnings made;
     run(progress, [&](Job& job) {
@@ -126,7 +119,7 @@ std::shared_ptr<const PreparedPanel> prepare(const Display& display, const AnyPi
 /// Renders the display with a prepared panel, else with the panel's picture `pixels`, else with the display's content. Returns the
 /// picture, the warnings, and the seconds that rendering takes in C++, without the content and without Python.
 nb::typed<nb::tuple, Pictured, Notes, double> render(const Display& display, const std::optional<AnyPixels>& pixels,
-                                                     const PreparedPanel* panel, const std::optional<Corners>& crop, int threads,
+                                                     const PreparedPanel* panel, const std::optional<CropBox>& crop, int threads,
                                                      const std::string& device, const std::string& kernel,
                                                      const nb::object& progress) {
     if (pixels) check_size(columns_of(*pixels), rows_of(*pixels), display);
@@ -167,7 +160,7 @@ Pictured test_pattern(const Display& display, const std::string& name, int cell_
     return array_of(std::move(image));
 }
 
-nb::typed<nb::dict, std::string, double> compare(const AnyPixels& a, const AnyPixels& b, const std::optional<Corners>& crop,
+nb::typed<nb::dict, std::string, double> compare(const AnyPixels& a, const AnyPixels& b, const std::optional<CropBox>& crop,
                                                  bool linear) {
     Comparison c{};
     run(nb::none(), [&](Job&) {
