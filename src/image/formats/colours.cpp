@@ -31,11 +31,11 @@ class Profile {
     std::string name() const {
         const std::size_t at = tag("desc");
         const bool unicode = says(at, "mluc");  // UTF-16 of several languages: the first
-        const std::size_t text = at + (unicode ? u32(at + 24) : 12), step = unicode ? 2 : 1;
-        const std::size_t length = std::min<std::size_t>(60, unicode ? u32(at + 20) / 2 : u32(at + 8));
+        const std::size_t text = at + (unicode ? u32(at + 24) : 12), length = unicode ? u32(at + 20) / 2 : u32(at + 8);
         std::string name;
-        for (std::size_t i = 0; i < length && (unicode ? u16(text + 2 * i) : u8(text + i)) != 0; ++i) {
-            const std::uint32_t c = unicode ? u16(text + step * i) : u8(text + i);
+        for (std::size_t i = 0; i < std::min<std::size_t>(length, 60); ++i) {
+            const std::uint32_t c = unicode ? u16(text + 2 * i) : u8(text + i);
+            if (c == 0) break;
             name += c >= 0x20 && c < 0x7f ? char(c) : '?';
         }
         return name;
@@ -53,8 +53,7 @@ class Profile {
             return (count % 2 == 1 ? u16(first) : 0.5 * (u16(first) + u16(first + 2))) / 65535.0;
         }
         if (!says(at, "para")) return std::nan("");
-        // Y = (a X + b)^g + c, of which types 0 to 4 have the first 1, 3, 4, 3 and 5 (4 and 3: e in place of c, after the linear
-        // part).
+        // Above its linear part the curve is Y = (a X + b)^g + o, with a = 1, b = 0 in type 0, and o only in types 2 and 4.
         const auto parameter = [&](std::size_t i) { return fixed(at + 12 + 4 * i); };
         const std::uint32_t type = u16(at + 8);
         const double base = type == 0 ? 0.5 : 0.5 * parameter(1) + parameter(2);
@@ -93,11 +92,10 @@ bool are_srgb_primaries(const std::array<double, 8>& xy) {
 std::string not_srgb(const StatedColours& stated, Encoding encoding) {
     const bool curve = encoding == Encoding::srgb && !(std::abs(stated.mid_gray - srgb_mid_gray) <= 0.01);
     if (stated.srgb_primaries && !curve) return "";
-    return fmt::format("states {}: {} of sRGB; {}", stated.name,
+    return fmt::format("states {}: {} of sRGB; its colours are read as sRGB all the same: convert it to sRGB before", stated.name,
                        stated.srgb_primaries ? "its curve is not that"
                        : curve               ? "neither its primaries nor its curve are those"
-                                             : "its primaries are not those",
-                       "its colours are read as sRGB all the same: convert it to sRGB before");
+                                             : "its primaries are not those");
 }
 
 }  // namespace lfdsim::detail
