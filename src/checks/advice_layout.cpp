@@ -12,16 +12,16 @@ namespace {
 /// Returns the share of the lenses whose elemental images are centred beside the panel, so that at least half of the image is
 /// missing. The image of the lens at C is centred at e C, e the elemental pitch over the lens pitch. In arrays of more than 256
 /// columns or rows 256 evenly spread ones are counted.
-double share_beside_panel(const Geometry& g, double elemental_over_lens_pitch) {
-    const double cos = g.lattice.cos_turn, sin = g.lattice.sin_turn;
-    const auto columns = std::int64_t(std::min(g.lattice.count[0], 256.)), rows = std::int64_t(std::min(g.lattice.count[1], 256.));
+double share_beside_panel(const Geometry& g, const Lattice<double>& lattice, double elemental_over_lens_pitch) {
+    const double cos = lattice.cos_turn, sin = lattice.sin_turn;
+    const auto columns = std::int64_t(std::min(lattice.count[0], 256.)), rows = std::int64_t(std::min(lattice.count[1], 256.));
     std::int64_t beside = 0;
     for (std::int64_t j = 0; j < rows; ++j)
         for (std::int64_t i = 0; i < columns; ++i) {
             const double u = ((double(i) + 0.5) / double(columns) - 0.5) * g.array_width_mm,
                          v = ((double(j) + 0.5) / double(rows) - 0.5) * g.array_height_mm;
-            const double x = elemental_over_lens_pitch * (cos * u - sin * v + g.lattice.offset[0]),
-                         y = elemental_over_lens_pitch * (sin * u + cos * v + g.lattice.offset[1]);
+            const double x = elemental_over_lens_pitch * (cos * u - sin * v + lattice.offset[0]),
+                         y = elemental_over_lens_pitch * (sin * u + cos * v + lattice.offset[1]);
             beside += std::abs(x) > g.panel_width_mm / 2 || std::abs(y) > g.panel_height_mm / 2;
         }
     return double(beside) / double(columns * rows);
@@ -36,16 +36,15 @@ void advise_on_layout(Advised& a) {
     if (!d.array.count || is_strips(d.array)) return;                    // without a count lenses reach beyond the panel by design
     const double scale = a.theory.along[0].elemental_pitch_mm / g.lattice.pitch[0];  // p'/p, p as built
     // Shares beside the panel with and without offset and rotation tell these two causes from elemental images that are too wide.
-    Geometry straight = g;
-    straight.lattice.cos_turn = 1;
-    straight.lattice.sin_turn = straight.lattice.offset[0] = straight.lattice.offset[1] = 0;
-    const double beside = share_beside_panel(g, scale), beside_straight = share_beside_panel(straight, scale);
+    Lattice<double> straight = g.lattice;
+    straight.cos_turn = 1;
+    straight.sin_turn = straight.offset[0] = straight.offset[1] = 0;
+    const double beside = share_beside_panel(g, g.lattice, scale), beside_straight = share_beside_panel(g, straight, scale);
     const bool by_errors = d.errors.shift_mm != std::array<double, 2>{} || d.errors.rotation_deg != 0;
     if (beside > beside_straight + 0.005)
         a.say(
             "the array is moved by {:.5g}, {:.5g} mm and turned by {:.5g} degrees{}: the elemental images of {:.3g} % of its "
-            "lenses "
-            "lie outside the panel, and these lenses stay dark. Reduce both (--set 'array.offset_mm=[0, 0]' --set "
+            "lenses lie outside the panel, and these lenses stay dark. Reduce both (--set 'array.offset_mm=[0, 0]' --set "
             "array.rotation_deg=0{})",
             g.lattice.offset[0], g.lattice.offset[1], g.turn_deg, by_errors ? " with its errors" : "", 100 * beside,
             by_errors ? " --set 'errors.shift_mm=[0, 0]' --set errors.rotation_deg=0" : "");

@@ -205,6 +205,9 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     const Exposure exposure{keys.levels[0], keys.levels[1], gain_of(request, *views)};
     expect_light(*views, exposure.gain);
     expect_light(*others, exposure.gain);
+    if (const std::string colours = keys.start.empty() ? "" : other_colours(keys.start, request.display.panel.encoding);
+        !colours.empty())
+        report.warnings.push_back(fmt::format("{}: {}", keys.start, colours));
     if (is_black(*views)) report.warnings.push_back("the content is black from these eyes: there is nothing to fit");
     const bool pixels = entries_are_pixels(request.display), codes = keys.weighting == ErrorOf::eye;
     FittedViews fitted(std::move(*views), pixels, codes, exposure, job), held_out(std::move(*others), pixels, codes, exposure, job);

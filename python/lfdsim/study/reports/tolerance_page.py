@@ -52,15 +52,15 @@ def write(found: Tolerance, percent: float) -> pathlib.Path:
 
 def _counts(found: Tolerance) -> list[str]:
     """How many draws there are, and how many of them are impossible: of all errors together, and of each alone and at other sizes."""
-    layout, told = found.layout, []
+    layout, sentences = found.layout, []
     blocks: dict[str, list[int]] = {"of all errors together": [], "of each error alone and at other sizes": []}
     for group, scale, block in layout.blocks():
         blocks["of all errors together" if group == ALL and scale == 1 else "of each error alone and at other sizes"] += list(block)
     for what, numbers in blocks.items():
         reasons = found.rows["error"].iloc[numbers].dropna()
         if numbers:
-            told.append(f"{counted(len(numbers), 'draw')} {what}, {len(reasons)} of them impossible{most_often(reasons)}.")
-    return told
+            sentences.append(f"{counted(len(numbers), 'draw')} {what}, {len(reasons)} of them impossible{most_often(reasons)}.")
+    return sentences
 
 
 SHORT = ("without errors", "5 %", "50 %", "95 %")
@@ -113,7 +113,7 @@ def _budget(found: Tolerance, figure: str, percent: float) -> str:
 def _too_few(lines: pd.DataFrame) -> str:
     """Why known scales have no interval, where that is so."""
     unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna()
-    reason = "Fewer than two draws lie beyond the percentile, so the uncertainty of an allowed scale is not known; make more draws (option --alone)."
+    reason = "An allowed scale has no interval where fewer than two draws lie beyond the percentile; make more draws (option --alone)."
     return reason if unsure.any() else ""
 
 
