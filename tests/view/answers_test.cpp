@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const fs::path displays = LFDSIM_SOURCE_DIR "/displays";
@@ -237,6 +238,20 @@ TEST_F(AnswersTest, FiguresAreThoseOfTheory) {
     Wanted collimated;
     collimated.set = {"lens.focal_length_mm=" + Json(f).dump()};
     EXPECT_THAT(resolved(ready, collimated)["theory"].dump(), HasSubstr("\"value\":\"infinite\""));
+}
+
+// A PNG that states its tone curve has the chunk gAMA behind its header, which ends at byte 33.
+TEST_F(AnswersTest, APictureOfOtherColoursIsWarnedOf) {
+    const fs::path file = folder / "panel.png";
+    write_image(file, Image(210, 150));
+    Wanted w = wanted();
+    w.shown = {Shown::Kind::panel_image, "panel.png"};
+    EXPECT_THAT(resolved(library(), w)["warnings"].dump(), Not(HasSubstr("panel.png")));
+    std::string bytes = lfdsim::test::load(file);
+    bytes.insert(33, std::string("\0\0\0\4gAMA\0\1\x86\xa0\x31\xe8\x96\x5f", 16));
+    lfdsim::test::save(file, bytes);
+    EXPECT_THAT(resolved(library(), w)["warnings"][0], HasSubstr("panel.png: "));
+    EXPECT_THAT(resolved(library(), wanted())["warnings"].dump(), Not(HasSubstr("panel.png")));
 }
 
 TEST_F(AnswersTest, ProblemsAreToldByKey) {

@@ -170,7 +170,7 @@ def layouts(page):
 def drawings(page, real):
     for name in ("fov", "spot", "lens", "display"):
         page.click(f"[data-drawing={name}]")
-        page.until(f"the drawing {name}", lambda s: page.run("return !!document.querySelector('#drawing svg')"), 240)
+        page.until(f"the drawing {name}", lambda s: page.run("return !!document.querySelector('#drawing svg')"))
         page.shot(f"drawing-{name}")
         assert not real or page.smallest_text() >= 10.99, f"{name} has text of {page.smallest_text():.1f} pixels"
     x, y = page.run("const b = document.getElementById('stage').getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]")
@@ -290,7 +290,7 @@ def looks(page, real):
     if real:
         for name in ("display", "fov"):
             page.click(f"[data-drawing={name}]")
-            page.until(f"the drawing {name}", lambda s: page.run("return !!document.querySelector('#drawing svg')"), 60)
+            page.until(f"the drawing {name}", lambda s: page.run("return !!document.querySelector('#drawing svg')"))
             page.shot(f"phone-{name}")
             assert page.smallest_text() >= 10.99, f"{name} has text of {page.smallest_text():.1f} pixels on a phone"
         outside = page.run("""const box = document.getElementById('drawing').getBoundingClientRect();

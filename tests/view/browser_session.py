@@ -87,7 +87,7 @@ class Page:
     def state(self):
         return self.run("return lfdsim.state()")
 
-    def until(self, what, holds, seconds=30):
+    def until(self, what, holds, seconds=240):
         """Waits until holds(stats) and returns the stats; fails with what was waited for."""
         until = time.monotonic() + seconds
         while True:

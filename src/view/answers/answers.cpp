@@ -4,6 +4,7 @@
 #include "content/content.h"
 #include "display/keys.h"
 #include "files/description/display_file.h"
+#include "image/formats/image_file.h"
 #include "report/drawings/side_view.h"
 #include "report/folder/check.h"
 #include "report/folder/description.h"
@@ -13,6 +14,8 @@
 #include "view/answers/plots.h"
 #include "view/answers/probe.h"
 #include "view/answers/save.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <new>
@@ -166,6 +169,16 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
     throw InputError("exr", "has no answer: the picture is sent as a frame of the lane \"file\"");
 }
 
+/// Returns what to warn of: of the picture that the panel shows, then of the display.
+std::vector<std::string> warnings(const Library& library, const Wanted& wanted, const Display& display,
+                                  std::vector<std::string> of_display) {
+    const Shown shown = library.shown(wanted.shown);
+    if (shown.kind != Shown::Kind::panel_image) return of_display;
+    const std::string colours = other_colours(shown.name, display.panel.encoding);
+    if (!colours.empty()) of_display.insert(of_display.begin(), fmt::format("{}: {}", shown.name, colours));
+    return of_display;
+}
+
 }  // namespace
 
 Json problems_message(std::int64_t id, const std::vector<Problem>& problems) {
@@ -183,7 +196,7 @@ Json resolved(const Library& library, const Wanted& wanted) {
                         {"controls", controls(display, described(library, wanted, display))},
                         {"theory", json_of(figures(display, geometry, paraxial))},
                         {"geometry", json_of(figures(display, geometry))},
-                        {"warnings", verdicts_and_advice(display, geometry, paraxial)},
+                        {"warnings", warnings(library, wanted, display, verdicts_and_advice(display, geometry, paraxial))},
                         {"command", command(library, wanted)}});
     } catch (const InputError& error) {
         return problems_message(wanted.id, error.problems);
