@@ -5,6 +5,7 @@ import unittest
 from unittest import mock
 
 import numpy as np
+import pandas
 from scipy import stats
 
 from common import DISPLAY, StudyTest, call
@@ -113,6 +114,13 @@ class Budgets(unittest.TestCase):
         self.assertEqual(scale, 0.5)
         self.assertIn("too large; nothing smaller was measured", how)
 
+    def test_a_figure_that_the_display_without_errors_lacks(self):
+        layout = errors.Layout({"errors.gap_mm": SD}, 4, 4)
+        rows = pandas.DataFrame({"f": np.ones(layout.rows), "error": None})
+        without = pandas.Series({"f": np.nan})
+        budget = tolerances._budget(layout, rows, without, (Loss("f", 1.0),), 50)
+        self.assertEqual(set(budget["how"]), {"unknown: the display without errors has no such figure"})
+
     def test_ways_of_losing(self):
         figure = np.array([0.9, 1.0, 1.2])
         np.testing.assert_allclose(Loss.parse("f=0.1").of(figure, 1.0), [0.1, 0, 0.2])
@@ -163,19 +171,9 @@ class KnownAnswers(StudyTest):
         np.testing.assert_allclose(table["check.theory.fov_exact_deg"], fov(table["array.gap_mm"]), rtol=1e-9)
 
 
-def knows_errors(folder) -> bool:
-    try:
-        lfdsim.Display.load(folder / "display.toml")["errors.gap_mm"]
-        return True
-    except (KeyError, ValueError):
-        return False
-
-
 class WholeStudies(StudyTest):
     def setUp(self):
         super().setUp()
-        if not knows_errors(self.folder):
-            self.skipTest("this lfdsim knows no [errors]")
         self.display = self.write(DISPLAY + f"[errors]\ngap_mm = {SD}\nrotation_deg = 0.01\n", "errors.toml")
 
     def test_the_budget_of_a_gap_error(self):
@@ -255,6 +253,24 @@ class WholeStudies(StudyTest):
         self.assertEqual(done.stdout, call(*words).stdout)
         self.assertIn("holds another study (draws.csv differs)", call(*words[:4], "--draws", 21, "--measure", "check").stderr)
 
+    def test_fewer_draws_together_than_alone(self):
+        words = ("--draws", 8, "--alone", 20, "--measure", "check", "--loss", "check.theory.central_depth_mm=5", "--percent", 50)
+        done = call("tolerance", self.display, "-o", self.folder / "out", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("8 draws of all errors together", done.stdout)
+
+    def test_errors_are_those_of_the_changed_display(self):
+        none = {"errors": None}
+        with self.assertRaisesRegex(StudyError, "states no error"):
+            study.tolerance(self.display, self.folder / "none", 2, alone=0, measures=("check",), progress=False, set=none)
+        self.write("i,j,dx_mm,dy_mm,dz_mm,tilt_x_deg,tilt_y_deg,curvature\n0,0,0,0,0.1,0,0,0\n", "lenses.csv")
+        done = call(
+            *("tolerance", self.display, "-o", self.folder / "out", "--draws", 2, "--alone", 0, "--measure", "check"),
+            *("--set", "errors.gap_mm=none", f"errors.table={self.folder / 'lenses.csv'}"),
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("without errors, has those of errors.table (", done.stdout)
+        self.assertNotIn("gap_mm", (self.folder / "out" / "draws.csv").read_text())
 
     def test_sizes_in_place_of_impossible_ones(self):
         """What --set changes is judged with it, in the description, in a study's [set] and in Python."""

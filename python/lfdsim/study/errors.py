@@ -10,11 +10,10 @@ import csv
 import dataclasses
 import io
 import json
-import tomllib
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
+
+import lfdsim
 
 from .factors import truncated_normal
 from .problems import StudyError
@@ -33,6 +32,7 @@ class Layout:
     draws: int  # of all together at scale 1
     alone: int  # of every other group and scale
     scales: tuple[float, ...] = (0.5, 1.0, 2.0)
+    table: str = ""  # errors.table, whose errors are those of every row
 
     @property
     def groups(self) -> list[str]:
@@ -53,12 +53,10 @@ class Layout:
         return blocks
 
 
-def sizes_of(display_text: str, changes: Mapping[str, Any], path: object) -> dict[str, float | list[float]]:
-    """Of the errors that a description states, or that `changes` of its keys state, but for those that are zero."""
-    stated = dict(tomllib.loads(display_text).get("errors", {}))
-    stated |= {key.removeprefix("errors."): value for key, value in changes.items() if key.startswith("errors.")}
-    stated = {name: 0.0 if value is None or value == "none" else value for name, value in stated.items()}
-    sizes = {f"errors.{name}": stated[name] for name in (*WHOLE, *EACH) if np.any(np.asarray(stated.get(name, 0.0), float) != 0)}
+def sizes_of(display: "lfdsim.Display", path: object) -> dict[str, float | list[float]]:
+    """The errors that a display has, but for those that are zero and those of its table."""
+    stated = {key: np.asarray(display[key], float) for key in (f"errors.{name}" for name in (*WHOLE, *EACH))}
+    sizes = {key: size.tolist() for key, size in stated.items() if np.any(size != 0)}
     if not sizes:
         raise StudyError(
             f"{path}: [errors]",

@@ -13,7 +13,7 @@ import numpy as np
 import lfdsim
 from lfdsim.toml_text import toml_text
 
-from . import api, errors, files, planned, runs
+from . import api, errors, files, planned, runs, work
 from .columns import is_uncertainty
 from .errors import ALL, Layout
 from .factors import is_number
@@ -111,8 +111,9 @@ def tolerance(
     _check_names(measures, losses)
     runs.check_machines(dask, workers, threads, progress)
     changes = dict(set or {})
-    sizes = errors.sizes_of(planned.display_in(display, changes)[0], changes, display)
-    layout = Layout(sizes, draws, max(10, draws // 5) if alone is None else alone)
+    described = work.changed(planned.display_in(display, changes)[1], display.parent, changes)
+    alone = max(10, draws // 5) if alone is None else alone
+    layout = Layout(errors.sizes_of(described, display), draws, alone, table=str(described["errors.table"]))
     if layout.rows > MOST_ROWS:
         many = f"{draws} and {layout.alone} of each error alone are {layout.rows} rows"
         raise StudyError("draws", f"{many}; at most {MOST_ROWS} are possible")
@@ -215,22 +216,27 @@ def _budget(
     import pandas
 
     def percentile(lost: np.ndarray) -> float:
-        # An impossible display, or one without the figure, has lost it.
-        return float(np.nan_to_num(np.percentile(np.where(np.isnan(lost), np.inf, lost), percent), nan=np.inf))
+        # An impossible display, or one without the figure, has lost it. Between two of these the percentile is inf - inf.
+        with np.errstate(invalid="ignore"):
+            return float(np.nan_to_num(np.percentile(np.where(np.isnan(lost), np.inf, lost), percent), nan=np.inf))
 
     lines = []
     for loss in losses if layout.alone else ():
         for group in layout.groups:
             lost, cut, of_all = {}, {}, np.nan
-            for scale, block in ((s, r) for g, s, r in layout.blocks() if g == group):
+            blocks = {scale: block for of, scale, block in layout.blocks() if of == group}
+            same = min(map(len, blocks.values()))  # draws that all scales have
+            for scale, block in blocks.items():
                 of_block = loss.of(rows[loss.figure].to_numpy(float)[block.start : block.stop], without[loss.figure])
-                lost[scale] = of_block[: layout.alone]  # the same draws at each scale
+                lost[scale] = of_block[:same]
                 if scale == 1:
                     of_all = percentile(of_block)
                 if np.isinf(percentile(lost[scale])):
-                    cut[scale] = _why_none(rows["error"].iloc[block.start : block.start + layout.alone], lost[scale])
+                    cut[scale] = _why_none(rows["error"].iloc[block.start : block.start + same], lost[scale])
             at = {s: percentile(values) for s, values in lost.items()}
             scale, how = allowed_scale(at, loss.amount, cut)
+            if np.isnan(without[loss.figure]):
+                how = "unknown: the display without errors has no such figure"
             low, high = _chance(lost, loss.amount, percent, percentile)
             size = layout.sizes.get(group)
             lines.append(

@@ -60,6 +60,8 @@ def _counts(found: Tolerance) -> list[str]:
         reasons = found.rows["error"].iloc[numbers].dropna()
         if numbers:
             sentences.append(f"{counted(len(numbers), 'draw')} {what}, {len(reasons)} of them impossible{most_often(reasons)}.")
+    if layout.table:
+        sentences.append(f"Every draw, and what is measured without errors, has those of errors.table ({layout.table}), too.")
     return sentences
 
 
