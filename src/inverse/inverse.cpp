@@ -23,8 +23,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr double usual_prior = 0.001, careful_prior = 0.3;
-constexpr double fewest_rows = 2, fewest_rays = 20;  // for each panel pixel met: below this the fit follows noise
+constexpr double usual_prior = 0.001;
 constexpr std::int64_t content_samples = 16, held_out_content_samples = 64, held_out_rays = 512;
 constexpr int patience = 5;             // steps after which held-out eyes must have gained ...
 constexpr double least_gain_db = 0.01;  // ... this much, or the fit ends
@@ -162,12 +161,18 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     return best;
 }
 
+/// Returns the bytes of the unknowns: seven arrays of them, and integers of twice the size. Throws InputError if there are fewer.
+double memory_for_unknowns(const Display& d) {
+    const double bytes = 10 * texel_bytes(d);
+    require_memory("panel.pixels", "the inverse pick-up, with its arrays of the panel's size,", bytes);
+    return bytes;
+}
+
 /// Returns the bytes of rays that may be kept: content.inverse.memory_mb, or half of what is free beside the unknowns. Throws
 /// InputError if there is no room for the unknowns, or for one view.
 double memory_for_rays(const Request& request, const Display& seen) {
     const Inverse& keys = request.keys();
-    const double unknowns = 10 * texel_bytes(request.display);  // seven arrays of them, and integers of twice the size
-    require_memory("panel.pixels", "the inverse pick-up's arrays of the panel", unknowns);
+    const double unknowns = memory_for_unknowns(request.display);
     const double view =
         double(seen.camera.resolution[0]) * double(seen.camera.resolution[1]) * double(*seen.render.samples) * sizeof(PanelRay);
     const double bytes = keys.memory_mb ? *keys.memory_mb * 1e6 : std::max(free_bytes() - unknowns, 0.) / 2;
@@ -246,21 +251,18 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     return made;
 }
 
-/// Adds a warning if the views have too few elements, or too few rays with light, for each panel pixel that they meet.
-void warn_of_few_rays(InverseReport& report, const Inverse& keys, double rows, double rays) {
-    if (rows >= fewest_rows && rays >= fewest_rays) return;
-    const std::string places =
-        rows >= fewest_rows && keys.rays
-            ? ""
-            : fmt::format(
-                  "give content.inverse.places = {:.0f} or more",
-                  std::ceil(double(report.places) * std::max({rows_wanted / rows, keys.rays ? 1. : fewest_rays / rays, 1.})));
-    report.warnings.push_back(
-        fmt::format("the eyes' views have {:.3g} elements and {:.3g} rays with light for each panel pixel that they meet; below {} "
-                    "and {} the fit follows noise{}; {}{}{}",
-                    rows, rays, fewest_rows, fewest_rays,
-                    keys.prior ? "" : fmt::format(", and is pulled to traced content (prior {})", careful_prior), places,
-                    places.empty() || !keys.rays ? "" : ", and ", keys.rays ? "leave out content.inverse.rays" : ""));
+/// Returns the report before the fit: the numbers of eyes and rays, and the pull to the prior, careful where there are few rays.
+InverseReport planned(const Request& request, std::int64_t places, std::int64_t rays, const EyeCounts& counts) {
+    InverseReport report;
+    report.boxes = request.boxes;
+    report.places = places;
+    report.rays_per_element = rays;
+    report.rows_per_unknown = counts.rows / counts.pixels;
+    report.rays_per_unknown = counts.lit * double(rays) / counts.pixels;
+    const std::string few = few_rays(request, places, report.rows_per_unknown, report.rays_per_unknown);
+    if (!few.empty()) report.warnings.push_back(few);
+    report.prior = request.keys().prior.value_or(few.empty() ? usual_prior : careful_prior);
+    return report;
 }
 
 /// The display that content is made for: without errors, unless content is made for the display as built.
@@ -284,32 +286,19 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
     if (!traced.complete) return {traced, {}};
     return on_threads(request.threads, [&] {
         const Inverse& keys = request.keys();
-        // Eyes in and around the boxes, and the strength of the pull to traced content: it is careful where there are few rays
         const Plan p = plan(request);
         if (request.job.cancelled()) return InvertedPanel{{traced.image, false}, {}};
-        InverseReport report;
-        report.boxes = request.boxes;
-        report.places = p.in_boxes;
+        InverseReport report = planned(request, p.in_boxes, p.rays, p.counts);
         report.rim_places = std::int64_t(p.eyes.size()) - p.in_boxes;
-        report.rays_per_element = p.rays;
-        report.rows_per_unknown = p.counts.rows / p.counts.pixels;
-        report.rays_per_unknown = p.counts.lit * double(p.rays) / p.counts.pixels;
-        const bool few = report.rows_per_unknown < fewest_rows || report.rays_per_unknown < fewest_rays;
-        report.prior = keys.prior.value_or(few ? careful_prior : usual_prior);
         if (const double views = views_within(request.boxes, request.display, request.geometry);
             request.boxes.size() == 1 && views > 0 && views < 2)
             report.warnings.push_back(
-                fmt::format("the eyes' box is only {:.2g} views wide: all its eyes see nearly the same; give a wider one "
-                            "(--eyes-mm)",
-                            views));
-        warn_of_few_rays(report, keys, report.rows_per_unknown, report.rays_per_unknown);
+                fmt::format("the eyes' box is only {:.2g} views wide: all its eyes see nearly the same (--eyes-mm)", views));
         if (errors_unknown)
             report.warnings.push_back(
                 "the panel is made for the display as described, and shown by one with assembly errors: content.made_for = "
-                "\"built\" makes "
-                "it for that one");
-        // Held-out eyes continue the places in the boxes. Numbers of eyes do not overlap, so neither do their grids' shifts and
-        // rays.
+                "\"built\" makes it for that one");
+        // Held-out eyes continue the places in the boxes, with numbers, and so with shifts and rays, that no other eye has.
         const std::vector<Eye> held_out = eyes_at(places_within(request.boxes, p.in_boxes, keys.held_out), 2'000'000, 1);
         InvertedPanel made = fit(request, p.eyes, held_out, p.counts, p.rays, traced, std::move(report));
         if (made.report.traced)
@@ -324,6 +313,7 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
 
 InvertedPanel invert(const Display& display, const Geometry& geometry, const ContentScene& scene, std::span<const EyeBox> boxes,
                      int threads, Job& job) {
+    memory_for_unknowns(display);
     const Meant made(display, geometry);
     const Request request{made.display,
                           made.geometry,
@@ -338,6 +328,7 @@ InvertedPanel invert(const Display& display, const Geometry& geometry, const Con
 
 InvertedPanel invert(const Display& display, const Geometry& geometry, const LightField& field, std::span<const EyeBox> boxes,
                      int threads, Job& job) {
+    memory_for_unknowns(display);
     const Meant made(display, geometry);
     const double focus_z = made.geometry.vertex_plane_mm + field.grid().depth_mm;
     FieldRays rays;
@@ -374,6 +365,7 @@ InvertedPanel invert(const Display& display, const Geometry& as_shown, const Eye
         if (const auto least = std::ranges::min_element(picture.rgb); *least < 0)
             throw InputError(fmt::format("targets[{}]", k), fmt::format("has the light {}; there is none below 0", *least));
     }
+    memory_for_unknowns(display);
     const Meant made(display, as_shown);
     const Request request{made.display, made.geometry, display, made.geometry.vertex_plane_mm + made.geometry.content_depth_mm, {},
                           {},           threads,       job};
@@ -382,13 +374,8 @@ InvertedPanel invert(const Display& display, const Geometry& as_shown, const Eye
         for (std::size_t k = 0; k < wanted.eyes_mm.size(); ++k)
             eyes.push_back({wanted.eyes_mm[k], std::int64_t(k), 1, &wanted.pictures[k]});
         const EyeCounts counts = count(request, eyes);
-        InverseReport report;
-        report.places = std::int64_t(eyes.size());
-        report.rays_per_element = request.keys().rays.value_or(rays_for(counts));
-        report.rows_per_unknown = counts.rows / counts.pixels;
-        report.rays_per_unknown = counts.lit * double(report.rays_per_element) / counts.pixels;
-        report.prior = request.keys().prior.value_or(usual_prior);
-        return fit(request, eyes, {}, counts, report.rays_per_element, {}, report);
+        const std::int64_t rays = request.keys().rays.value_or(rays_for(counts));
+        return fit(request, eyes, {}, counts, rays, {}, planned(request, std::int64_t(eyes.size()), rays, counts));
     });
 }
 

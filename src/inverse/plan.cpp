@@ -4,6 +4,7 @@
 #include "geometry/subpixels.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ namespace {
 constexpr std::int64_t fewest_places = 24;  // of a box: with 6 or 8 some eyes between them lose 1 to 2.6 dB
 constexpr std::int64_t most_places = 1024;  // unless a number is given: where views have too few elements, more take very long
 constexpr double rim_weight = 0.25;         // of eyes around the boxes
-constexpr std::int64_t rays_to_count = 4;   // of an element, to count the pixels that are met
+constexpr double fewest_rows = 2, fewest_rays = 20;  // for each panel pixel met: below this the fit follows noise
+constexpr std::int64_t rays_to_count = 4;            // of an element, to count the pixels that are met
 
 /// Returns the shift of an eye's grid of elements, along both axes uniform in [0, 1): a function of seed and number alone.
 std::pair<double, double> shift_of(const Request& request, std::int64_t place) {
@@ -87,6 +89,25 @@ EyeCounts count(const Request& request, std::span<const Eye> eyes) {
 std::int64_t rays_for(const EyeCounts& counts) {
     const double needed = rays_wanted * counts.pixels / counts.lit;
     return 4 * std::clamp<std::int64_t>(std::int64_t(std::ceil(needed / 4)), 1, 1024);
+}
+
+std::string few_rays(const Request& request, std::int64_t places, double rows, double rays) {
+    if (rows >= fewest_rows && rays >= fewest_rays) return {};
+    const Inverse& keys = request.keys();
+    const bool pictures = request.boxes.empty();
+    std::vector<std::string> remedies;
+    if (rows < fewest_rows || !keys.rays) {
+        const double enough = std::ceil(double(places) * std::max({rows_wanted / rows, keys.rays ? 1. : fewest_rays / rays, 1.}));
+        remedies.push_back(pictures ? fmt::format("give pictures for {:.0f} eyes or more", enough)
+                                    : fmt::format("give content.inverse.places = {:.0f} or more", enough));
+    }
+    if (keys.rays) remedies.emplace_back("leave out content.inverse.rays");
+    const std::string pulled =
+        fmt::format(", and is pulled to {} (prior {})", pictures ? "the mean of the pictures" : "traced content", careful_prior);
+    return fmt::format(
+        "the eyes' views have {:.3g} elements and {:.3g} rays with light for each panel pixel that they meet; below {} "
+        "and {} the fit follows noise{}; {}",
+        rows, rays, fewest_rows, fewest_rays, keys.prior ? "" : pulled, fmt::join(remedies, ", and "));
 }
 
 std::int64_t white_points_for(const Request& request, const EyeCounts& counts, std::int64_t rays) {

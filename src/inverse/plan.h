@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace lfdsim {
@@ -58,6 +59,11 @@ EyeCounts count(const Request&, std::span<const Eye>);
 inline constexpr double rows_wanted = 4, rays_wanted = 160;
 /// Returns the rays per element, a multiple of 4 up to 4096, with which each panel pixel met has rays_wanted rays that carry light.
 std::int64_t rays_for(const EyeCounts&);
+
+/// Returns what to warn of if views from `places` eyes have too few elements, `rows`, or too few rays with light for each panel
+/// pixel that they meet: the fit follows noise there, and takes careful_prior. Empty if there are enough.
+std::string few_rays(const Request&, std::int64_t places, double rows, double rays);
+inline constexpr double careful_prior = 0.3;
 
 /// Returns the number of points by which an element's light of a white panel is computed: four with light, in each colour, for each
 /// ray of its row, 16 for each at most, so that it is known better than from those rays.

@@ -45,6 +45,12 @@ TEST(Gltf, BlackVertexColoursAreBlack) {
     expect_colour(at(photo(load_model(file)), 0, 0), {0, 0, 0});
 }
 
+TEST(Gltf, FurtherVertexColoursAreNoted) {
+    Folder folder;
+    const auto file = Gltf().add("COLOR_1", "VEC3", Gltf::floats(std::vector<float>(12, 0.f))).write(folder);
+    EXPECT_THAT(info(*load_model(file)).notes, testing::ElementsAre("colours of vertices beyond COLOR_0 are not shown"));
+}
+
 // Texture coordinates from 0 to 2 across: what the second period shows says how the sampler wraps.
 TEST(Gltf, SamplersWrap) {
     Folder folder;

@@ -1,7 +1,7 @@
 // Content by inversion: its matrix is the renderer, its adjoint the matrix's, and its solver finds the minimum.
 #include "inverse/inverse.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -298,8 +298,14 @@ TEST(Inverse, FitsGivenPictures) {
         const float light = picture(seen, shown).at(45, 30)[1] / picture(seen, white).at(45, 30)[1];
         EXPECT_NEAR(light, 0.2 + 0.2 * double(k), 0.05) << k;
     }
+    EXPECT_THAT(panel.report.warnings, testing::IsEmpty());
     wanted.pictures.pop_back();
     EXPECT_THROW(invert(d, resolve(d), wanted, 2, job), InputError);
+    wanted.eyes_mm.pop_back();
+    d.content.inverse.rays = 1;
+    EXPECT_THAT(
+        invert(d, resolve(d), wanted, 2, job).report.warnings,
+        testing::ElementsAre(testing::HasSubstr("pulled to the mean of the pictures (prior 0.3); leave out content.inverse.rays")));
 }
 
 /// A job that is cancelled after so many stages.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "base/printable.h"
@@ -210,14 +211,14 @@ class DisplayReader {
     void add_unknown(const toml::key& key, const std::string& prefix, const std::vector<std::string_view>& known) {
         const std::string where = prefix + shortened(key.str());
         const std::string_view meant = nearest(key.str(), known);
-        std::string elsewhere;  // the same key, in the table where it belongs
+        std::set<std::string> elsewhere;  // the tables that have this key
         for (const FormatTable& table : format_tables())
-            if (table.is != PartKind::list && has_key(table, key.str())) elsewhere = table.path;
+            if (table.is != PartKind::list && has_key(table, key.str())) elsewhere.insert("[" + table.path + "]");
         add_superfluous(source.place(key, where), where,
                         elsewhere.empty()
                             ? fmt::format("is unknown; {}", meant.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
                                                                           : fmt::format("did you mean {}?", meant))
-                            : fmt::format("is unknown here; it belongs in [{}]", elsewhere));
+                            : fmt::format("is unknown here; it belongs in {}", fmt::join(elsewhere, " or ")));
     }
 
     static bool has_key(const FormatTable& table, std::string_view name) {

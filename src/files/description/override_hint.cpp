@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -118,6 +119,13 @@ std::string number_hint(std::string_view path, std::string_view value) {
     return "give a number such as 12.5 or 1e3";
 }
 
+/// Returns the hint for a value of another form, or of an unknown key.
+std::string text_hint(std::string_view value) {
+    const bool word = std::isalpha(static_cast<unsigned char>(value[0])) &&
+                      std::all_of(value.begin(), value.end(), [](char c) { return c >= ' ' && c <= '~' && c != '"'; });
+    return word ? fmt::format("text is written in quotes: \"{}\"", value) : "";
+}
+
 std::string list_hint(std::string_view value) {
     if (const auto all = decimals(value)) return fmt::format("a list is written in brackets: [{}]", fmt::join(*all, ", "));
     return "";
@@ -127,7 +135,7 @@ std::string list_hint(std::string_view value) {
 
 std::string override_hint(std::string_view path, std::string_view value) {
     value = trimmed(value);
-    if (value.empty()) return "";
+    if (value.empty()) return "the value is missing";
     switch (form_of(path)) {
         case ValueForm::number:
             return number_hint(path, value);
@@ -136,7 +144,7 @@ std::string override_hint(std::string_view path, std::string_view value) {
         case ValueForm::other:
             break;
     }
-    return "";
+    return text_hint(value);
 }
 
 }  // namespace lfdsim

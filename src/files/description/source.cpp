@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 
+#include "base/printable.h"
 #include "base/whole_text.h"
 #include "display/keys.h"
 #include "files/description/override_hint.h"
@@ -75,7 +77,10 @@ std::string hint_in(std::string_view text, std::size_t line, std::string_view sa
         if (one.starts_with('[') && brackets <= 2)  // the keys of all elements of a list are those of the first
             table = std::string(one.substr(brackets, one.find(']') - brackets)) + (brackets == 2 ? ".0." : ".");
         const std::size_t equals = one.find('=');
-        if (n < line || equals == one.npos) continue;
+        if (n < line) continue;
+        if (equals == one.npos && !one.empty() && std::isalpha(static_cast<unsigned char>(one[0])))
+            return fmt::format("\"{}\" is not of the form KEY = VALUE", shortened(one));
+        if (equals == one.npos) continue;
         std::string_view value = one.substr(equals + 1);
         if (value.find_first_of("\"'") == value.npos) value = value.substr(0, value.find('#'));
         std::string_view key = one.substr(0, equals);

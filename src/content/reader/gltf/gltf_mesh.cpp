@@ -71,6 +71,7 @@ void GltfMeshes::add_primitive(const Item& item, const Posing& posing) {
     v.normals = posed(primitive, "NORMAL", posing, 3, 3);
     if (!texture.channel.empty()) v.uvs = posed(primitive, texture.channel.c_str(), posing, 2, 2);
     v.colours = posed(primitive, "COLOR_0", posing, 3, 4);
+    if (item.at("attributes").has("COLOR_1")) not_shown_.add("colours of vertices beyond COLOR_0");
     for (const auto* other : {&v.normals, &v.uvs, &v.colours})
         if (*other && (*other)->count != v.places.count) item.at("attributes").fail("have different counts");
     v.triangles = triangles(primitive, mode, v.places.count);
