@@ -187,6 +187,22 @@ class Page(StudyTest):
         self.assertEqual(int(lines[1][1]), 3 * int(lines[0][1]))
         self.assertEqual(lines[1].groups()[1:], lines[0].groups()[1:])
 
+    def test_rows_of_saltelli_that_repeat_values_do_not_count(self):
+        factor = '[[factor]]\nkey = "KEY"\nuniform = { from = FROM, to = TO }\n'
+        factors = factor.replace("KEY", "array.gap_mm").replace("FROM", "16.3").replace("TO", "16.7")
+        factors += factor.replace("KEY", "content.depth_mm").replace("FROM", "1").replace("TO", "90")
+        text = f'schema = 1\ndisplay = "display.toml"\ndesign = "saltelli"\nrows = 8\n{factors}[[measure]]\nname = "check"\n'
+        limit = ''.join(f'[[limit]]\nfigure = "check.theory.{name}"\nmax = 330\n' for name in ("central_depth_mm", "views"))
+        out = self.folder / "out"
+        table = study.run(self.write(text + limit), out, workers=1, progress=False)
+        study.report(out)
+        self.assertEqual(len(table), 32)
+        passed = (table["check.theory.central_depth_mm"][:16] <= 330).sum()
+        report = (out / page.NAME).read_text()
+        self.assertIn(f"<td>all limits</td><td></td><td></td><td>{passed}</td><td>{100 * passed / 16:.2f} %</td>", report.replace("\n", ""))
+        self.assertIn("The first 16 rows of the design count", report)
+        self.assertIn("check.theory.views: no Sobol indices: all rows have the same figure.", report)
+
     def test_another_limit_makes_another_report(self):
         out = self.folder / "out"
         study.run(self.write(FILE), out, workers=1, progress=False)

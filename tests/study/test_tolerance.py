@@ -254,10 +254,13 @@ class WholeStudies(StudyTest):
         self.assertIn("holds another study (draws.csv differs)", call(*words[:4], "--draws", 21, "--measure", "check").stderr)
 
     def test_fewer_draws_together_than_alone(self):
-        words = ("--draws", 8, "--alone", 20, "--measure", "check", "--loss", "check.theory.central_depth_mm=5", "--percent", 50)
+        losses = ("--loss", "check.theory.central_depth_mm=+5", "--loss", "check.theory.central_depth_mm=-4")
+        words = ("--draws", 8, "--alone", 20, "--measure", "check", *losses, "--percent", 50)
         done = call("tolerance", self.display, "-o", self.folder / "out", *words)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("8 draws of all errors together", done.stdout)
+        for way in ("rise by 5", "fall by 4"):
+            self.assertIn(f"Budget for check.theory.central_depth_mm: it may {way}\n  all together", done.stdout)
 
     def test_errors_are_those_of_the_changed_display(self):
         none = {"errors": None}

@@ -28,6 +28,7 @@ SIZE = [480, 270]
 RESAMPLES = 300
 ROUNDING = 1e-12  # of a figure: what it changes by less is no change
 WAYS = ("change", "fall", "rise")
+EXTRAPOLATED = "below what was tried: extrapolated, state a smaller size to measure it"
 MEASURES = ("picture", "fov", "crosstalk")
 
 
@@ -237,7 +238,8 @@ def _budget(
             scale, how = allowed_scale(at, loss.amount, cut)
             if np.isnan(without[loss.figure]):
                 how = "unknown: the display without errors has no such figure"
-            low, high = _chance(lost, loss.amount, percent, percentile)
+            # How far the loss departs from a power of the scale below what was tried is not known.
+            low, high = (np.nan, np.nan) if how == EXTRAPOLATED else _chance(lost, loss.amount, percent, percentile)
             size = layout.sizes.get(group)
             lines.append(
                 {
@@ -298,7 +300,7 @@ def allowed_scale(at: dict[float, float], amount: float, cut: Mapping[float, str
     below = [s for s in known if s < high]
     if not below and len(known) == 1:
         return high, f"too large; nothing smaller was measured{why}"
-    low, how = (max(below), "between what was tried") if below else (high, "below what was tried: extrapolated")
+    low, how = (max(below), "between what was tried") if below else (high, EXTRAPOLATED)
     if not below:
         high = known[1]
     if at[low] <= 0 or at[high] <= at[low]:

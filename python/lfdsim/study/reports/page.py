@@ -107,6 +107,8 @@ def _yield(data: Data) -> str:
     rows.append(["all limits", "", "", *_share(data, all_pass)])
     alike = " Replicates of one row resemble each other: they narrow the interval only as far as they differ."
     repeated = alike if data.plan.study.replicates > 1 else ""
+    if data.plan.study.design == "saltelli":
+        repeated += f" The first {_independent(data)} rows of the design count: the others repeat their values."
     return (
         f"<h2>Yield</h2>{table(['figure', 'min', 'max', 'rows that pass', 'share', '95 % interval'], rows)}"
         f"<p class=note>Impossible rows, and rows without the figure, do not pass.{repeated}</p>"
@@ -114,10 +116,16 @@ def _yield(data: Data) -> str:
 
 
 def _share(data: Data, passed: np.ndarray) -> list[object]:
-    of = data.plan.study.replicates
-    of_each = np.bincount(data.rows["row"].to_numpy() // of, passed, minlength=data.plan.rows // of)
+    of, independent = data.plan.study.replicates, _independent(data)
+    of_each = np.bincount(data.rows["row"].to_numpy() // of, passed, minlength=independent)[:independent]
     share, low, high = effects.share_with_interval(of_each, of)
-    return [int(passed.sum()), f"{100 * share:.2f} %", f"{100 * low:.2f} .. {100 * high:.2f} %"]
+    return [int(of_each.sum()), f"{100 * share:.2f} %", f"{100 * low:.2f} .. {100 * high:.2f} %"]
+
+
+def _independent(data: Data) -> int:
+    """How many of the design's rows, from the first on, are drawn independently: of saltelli those of A and B, whose values the others repeat."""
+    study = data.plan.study
+    return 2 * study.rows if study.design == "saltelli" else data.plan.rows // study.replicates
 
 
 def _main_effects(data: Data) -> str:
@@ -149,9 +157,11 @@ def _cost(data: Data) -> str:
     matrix = np.column_stack([data.factors[n] for n in names])
     replicates = data.plan.study.replicates
     repeated = "; replicates of one row count by their mean" if replicates > 1 else ""
+    row = data.rows["row"].to_numpy() // replicates
+    drawn = row < _independent(data)
     for figure in data.figures:
         y = data.rows[figure].to_numpy(float)
-        found = effects.regression(matrix, y, data.rows["row"].to_numpy() // replicates)
+        found = effects.regression(matrix[drawn], y[drawn], row[drawn])
         if found:
             doubt = (
                 "" if found.explained > 0.5 else " That is little: the figure does not follow straight lines, and the bars say little, too."
@@ -170,10 +180,10 @@ def _sobol(data: Data, figure: str, y: np.ndarray) -> str:
     names = [f.name for f in data.plan.study.factors]
     found = effects.sobol(y, len(names)) if not len(data.failed) and data.plan.study.replicates == 1 else None
     if found is None:
-        return (
-            f"<p>{_text(figure)}: no Sobol indices: they need the figure, finite, of every row of the design, once"
-            f"{f'; impossible rows: {len(data.failed)}' if len(data.failed) else ''}.</p>"
-        )
+        why = "rows have replicates" if data.plan.study.replicates > 1 else f"{len(data.failed)} rows are impossible"
+        if not len(data.failed) and data.plan.study.replicates == 1:
+            why = "all rows have the same figure" if np.isfinite(y).all() else "rows are without the figure"
+        return f"<p>{_text(figure)}: no Sobol indices: {why}.</p>"
     return f"<p>{_text(figure)}: Sobol indices, shares of the variance, with 95 % intervals.</p>" + plots.bars(
         names,
         found.first,

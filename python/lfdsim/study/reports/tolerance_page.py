@@ -12,7 +12,7 @@ from .. import files
 from . import page, plots
 from ..errors import ALL
 from ..problems import counted, most_often
-from ..tolerances import Tolerance
+from ..tolerances import EXTRAPOLATED, Tolerance
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,7 +26,7 @@ def write(found: Tolerance, percent: float) -> pathlib.Path:
     layout = found.layout
     parts = [
         f"<h1>Tolerances</h1><p>{html.escape(' '.join(_counts(found)))} All rows are in study.parquet.</p>",
-        *(_budget(found, figure, percent) for figure in (dict.fromkeys(found.budget["loss"]) if len(found.budget) else [])),
+        *(_budget(found, lines, percent) for lines in _losses(found)),
         "<h2>Sizes of the errors</h2>" + page.table(["error", "size"], [[k, str(v)] for k, v in layout.sizes.items()]),
         "<p class=note>Of the whole array: the standard deviation of a normal distribution about zero, cut off at 3. Of each lens "
         "(_sd): as the display draws them.</p>",
@@ -76,9 +76,9 @@ def summary(found: Tolerance) -> list[str]:
         for name, line in found.percentiles.iterrows():
             numbers = [f"{line[column]:>{15 if column == SHORT[0] else 12}.5g}" for column in SHORT]
             lines += [f"{name:<48}" + "".join(numbers)] if len(str(name)) < 48 else [str(name), " " * 48 + "".join(numbers)]
-    for figure in dict.fromkeys(found.budget["loss"]) if len(found.budget) else []:
-        of_it = found.budget[found.budget["loss"] == figure]
-        lines += ["", f"Budget for {figure}: it may {WAYS[of_it.iloc[0]['way']]} {of_it.iloc[0]['allowed']:g}"]
+    for of_it in _losses(found):
+        first = of_it.iloc[0]
+        lines += ["", f"Budget for {first['loss']}: it may {WAYS[first['way']]} {first['allowed']:g}"]
         for _, line in of_it.iterrows():
             size = "" if line["error"] == ALL else f", {_sizes(line)}"
             lines.append(f"  {line['error']}: {_scale(line)} of its size{size}; {line['how']}")
@@ -89,8 +89,12 @@ def summary(found: Tolerance) -> list[str]:
 WAYS = {"change": "change by", "fall": "fall by", "rise": "rise by"}
 
 
-def _budget(found: Tolerance, figure: str, percent: float) -> str:
-    lines = found.budget[found.budget["loss"] == figure]
+def _losses(found: Tolerance) -> list[pd.DataFrame]:
+    """The budget's lines of each loss."""
+    return [lines for _, lines in found.budget.groupby(["loss", "way", "allowed"], sort=False)] if len(found.budget) else []
+
+
+def _budget(found: Tolerance, lines: pd.DataFrame, percent: float) -> str:
     first = lines.iloc[0]
     may = WAYS[first["way"]]
     rows = [
@@ -106,15 +110,15 @@ def _budget(found: Tolerance, figure: str, percent: float) -> str:
     ]
     head = ["error", "size", f"loss of the worst {100 - percent:g} %", "allowed scale", "allowed size", ""]
     return (
-        f"<h2>Budget for {html.escape(figure)}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays. {_too_few(lines)}</p>"
+        f"<h2>Budget for {html.escape(first['loss'])}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays. {_too_few(lines)}</p>"
         + page.table(head, rows)
         + _curves(found, lines, first["allowed"])
     )
 
 
 def _too_few(lines: pd.DataFrame) -> str:
-    """Why known scales have no interval, where that is so."""
-    unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna()
+    """Why known scales have no interval, where that is so; those that are extrapolated say it themselves."""
+    unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna() & (lines["how"] != EXTRAPOLATED)
     reason = "An allowed scale has no interval where fewer than two draws lie beyond the percentile; make more draws (option --alone)."
     return reason if unsure.any() else ""
 
