@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t fewest_places = 24;  // of a box: with 6 or 8 some eyes between them lose 1 to 2.6 dB
 constexpr std::int64_t most_places = 1024;  // unless a number is given: where views have too few elements, more take very long
-constexpr double rim_weight = 0.25;         // of eyes around the boxes
+constexpr double rim_weight = 0.25;         // of all eyes around the boxes, over that of the eyes in them
 constexpr double fewest_rows = 2, fewest_rays = 20;  // for each panel pixel met: below this the fit follows noise
 constexpr std::int64_t rays_to_count = 4;            // of an element, to count the pixels that are met
 
@@ -139,13 +139,14 @@ Plan plan(const Request& request) {
         p.in_boxes =
             std::min(std::int64_t(std::ceil(double(p.in_boxes) * std::max(1.05 * rows_wanted / ratio, 1.02))), most_places);
     }
-    // As many around the boxes, of less weight; twice as many around boxes with width and height, whose rim has corners
+    // As many around the boxes, which together have rim_weight of their weight; four times as many around boxes with width and
+    // height, whose rim has corners
     p.eyes = eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1);
     const bool areas =
         std::ranges::any_of(request.boxes, [](const EyeBox& box) { return box.high[0] > box.low[0] && box.high[1] > box.low[1]; });
-    const std::vector<Vec3d> around =
-        places_around(request.boxes, request.display, request.geometry, rim, (areas ? 2 : 1) * p.in_boxes);
-    for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight))) p.eyes.push_back(eye);
+    const int times = areas ? 4 : 1;
+    const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, times * p.in_boxes);
+    for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight / times))) p.eyes.push_back(eye);
     p.counts = count(request, p.eyes);
     p.rays = keys.rays.value_or(rays_for(p.counts));
     return p;

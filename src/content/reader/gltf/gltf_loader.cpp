@@ -27,7 +27,7 @@ void check_extensions(const Item& required, NotShown& not_shown) {
         const auto begins = [&](const char* start) { return name.starts_with(start); };
         if (std::find(std::begin(shown_extensions), std::end(shown_extensions), name) != std::end(shown_extensions)) continue;
         if (std::any_of(std::begin(harmless_extensions), std::end(harmless_extensions), begins))
-            not_shown.add("what its materials and lights require by " + name);
+            not_shown.add("features required by " + name);
         else
             throw std::runtime_error("it requires the glTF extension " + name + ", which is not read; export it without");
     }
