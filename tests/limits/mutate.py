@@ -50,7 +50,7 @@ class Engine:
         """Names of the tests that fail with this header: those of the first filter of which any does."""
         with tempfile.TemporaryDirectory() as folder:
             place = pathlib.Path(folder)
-            (place / "optics").mkdir()
+            (place / HEADER).parent.mkdir(parents=True)
             (place / HEADER).write_text(header)
             archive = place / "engine.a"
             shutil.copy(self.build / "src/liblfdsim_engine.a", archive)

@@ -76,7 +76,8 @@ WRONG = [
         '"grid"\nreplicates = 1_000_000\n[[factor]]\nkey = "array.pitch_mm"\nfrom = 1\nto = 2\nsteps = 1_000_000',
         ["2000000000000 rows", "at most"],
     ),
-    ('"grid"', '"saltelli"\nrows = 9_000_000', ["27000000 rows", "at most"]),
+    ('"grid"', '"saltelli"\nrows = 8_388_608', ["25165824 rows", "at most"]),
+    ('"grid"', '"saltelli"\nrows = 12', ["rows", "is 12; give a power of 2"]),
     (
         '"grid"',
         '"grid"\nset = { "camera.position_mm.0" = 1 }\n[[factor]]\nkey = "camera.position_mm"\nvalues = [[0, 0, 9]]',

@@ -201,6 +201,9 @@ class Page(StudyTest):
         report = (out / page.NAME).read_text()
         self.assertIn(f"<td>all limits</td><td></td><td></td><td>{passed}</td><td>{100 * passed / 16:.2f} %</td>", report.replace("\n", ""))
         self.assertIn("The first 16 rows of the design count", report)
+        factors = table[["array.gap_mm", "content.depth_mm"]].to_numpy(float)[:16]
+        explained = effects.regression(factors, table["check.theory.central_depth_mm"].to_numpy(float)[:16]).explained
+        self.assertIn(f"explains {100 * explained:.1f} % of the variance", report)
         self.assertIn("check.theory.views: no Sobol indices: all rows have the same figure.", report)
 
     def test_another_limit_makes_another_report(self):

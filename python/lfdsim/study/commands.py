@@ -106,7 +106,7 @@ def _parser() -> argparse.ArgumentParser:
         "--alone",
         type=int,
         metavar="N",
-        help="of each error by itself at half, once and twice its size; 0: no budget; default: a fifth of --draws",
+        help="of each error by itself at half, once and twice its size; 0: no budget; default: three tenths of --draws",
     )
     tolerance.add_argument(
         "--measure",

@@ -10,13 +10,15 @@ import csv
 import dataclasses
 import io
 import json
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-import lfdsim
-
 from .factors import truncated_normal
 from .problems import StudyError
+
+if TYPE_CHECKING:
+    import lfdsim
 
 WHOLE = ("shift_mm", "gap_mm", "rotation_deg", "pitch_ppm", "wedge_deg", "bow_mm")  # of the array: what is stated is a standard deviation
 EACH = ("decenter_sd_mm", "height_sd_mm", "tilt_sd_deg", "curvature_sd")  # of each lens, drawn by the display itself
@@ -30,7 +32,7 @@ class Layout:
 
     sizes: dict[str, float | list[float]]  # of the errors that are not zero, by their key
     draws: int  # of all together at scale 1
-    alone: int  # of every other group and scale
+    alone: int  # of every other group and scale; of all together as many as there are draws, at most
     scales: tuple[float, ...] = (0.5, 1.0, 2.0)
     table: str = ""  # errors.table, whose errors are those of every row
 
@@ -47,16 +49,16 @@ class Layout:
         blocks, start = [], 1
         for group in self.groups:
             for scale in self.scales if self.alone else (1.0,):
-                count = self.draws if group == ALL and scale == 1 else self.alone
+                count = self.alone if group != ALL else self.draws if scale == 1 else min(self.alone, self.draws)
                 blocks.append((group, scale, range(start, start + count)))
                 start += count
         return blocks
 
 
-def sizes_of(display: "lfdsim.Display", path: object) -> dict[str, float | list[float]]:
+def sizes_of(display: lfdsim.Display, path: object) -> dict[str, float | list[float]]:
     """The errors that a display has, but for those that are zero and those of its table."""
-    stated = {key: np.asarray(display[key], float) for key in (f"errors.{name}" for name in (*WHOLE, *EACH))}
-    sizes = {key: size.tolist() for key, size in stated.items() if np.any(size != 0)}
+    keys = [f"errors.{name}" for name in (*WHOLE, *EACH)]
+    sizes = {key: np.asarray(display[key], float).tolist() for key in keys if np.any(display[key])}
     if not sizes:
         raise StudyError(
             f"{path}: [errors]",

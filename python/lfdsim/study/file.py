@@ -97,7 +97,7 @@ def read_study(path: str | pathlib.Path) -> Study:
         factors=the_factors,
         design=design,
         table=table,
-        rows=top.integer("rows", low=1, high=MOST_ROWS) if design in SAMPLED else 0,
+        rows=_rows(top, design),
         seed=top.integer("seed", 0),
         replicates=top.integer("replicates", 1, low=1, high=1_000_000),
         replicate_keys=tuple(top.items("replicate_keys", ())),
@@ -159,6 +159,15 @@ def _distribution(table: Table, kind: str) -> Quantile:
         made = factors.uniform(low, high) if kind == "uniform" else factors.triangular(low, mode, high)
     table.end()
     return made
+
+
+def _rows(top: Table, design: str) -> int:
+    if design not in SAMPLED:
+        return 0
+    rows: int = top.integer("rows", low=1, high=MOST_ROWS)
+    if design == "saltelli" and (rows < 2 or rows & (rows - 1)):
+        raise top.wrong("rows", f"is {rows}; give a power of 2 for the design saltelli, such as 64")
+    return rows
 
 
 def _measure(table: Table) -> Measure:

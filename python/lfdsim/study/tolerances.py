@@ -28,7 +28,9 @@ SIZE = [480, 270]
 RESAMPLES = 300
 ROUNDING = 1e-12  # of a figure: what it changes by less is no change
 WAYS = ("change", "fall", "rise")
-EXTRAPOLATED = "below what was tried: extrapolated, state a smaller size to measure it"
+EXTRAPOLATED = "extrapolated below the smallest size tried; state a smaller one to measure it"
+LEAST_EXTRAPOLATED = 0.1  # of the smallest scale tried: below it a power law says nothing
+FEWEST_BEYOND = 3  # draws beyond the percentile for an interval: with two 16 of 100 intervals miss the scale
 MEASURES = ("picture", "fov", "crosstalk")
 
 
@@ -95,8 +97,8 @@ def tolerance(
     """Draws the errors whose sizes the display's [errors] states, and measures each draw.
 
     Errors of the array (shift, gap, rotation, pitch, wedge, bow) are normal about zero, and what the display states is their standard
-    deviation; those of each lens are drawn anew each time. `alone`: draws of each error alone, at half, once and twice its size (None: a fifth of
-    `draws`; 0: none, and no budget). `measures`: names (`picture`: likeness to the scene), or tables as in a study's file. `losses`: what
+    deviation; those of each lens are drawn anew each time. `alone`: draws of each error alone, at half, once and twice its size (None: three tenths
+    of `draws`; 0: none, and no budget). `measures`: names (`picture`: likeness to the scene), or tables as in a study's file. `losses`: what
     `percent` of all displays must keep; the budget says which sizes allow that. `set`: keys of the description with other values, sizes
     of errors among them, as in {"errors.gap_mm": 0.02}; as the program's --set.
     """
@@ -113,7 +115,7 @@ def tolerance(
     runs.check_machines(dask, workers, threads, progress)
     changes = dict(set or {})
     described = work.changed(planned.display_in(display, changes)[1], display.parent, changes)
-    alone = max(10, draws // 5) if alone is None else alone
+    alone = max(10, draws * 3 // 10) if alone is None else alone
     layout = Layout(errors.sizes_of(described, display), draws, alone, table=str(described["errors.table"]))
     if layout.rows > MOST_ROWS:
         many = f"{draws} and {layout.alone} of each error alone are {layout.rows} rows"
@@ -141,6 +143,8 @@ def _check_names(measures: tuple[str | dict[str, Any], ...], losses: tuple[Loss,
             raise StudyError("measures (--measure)", f'"{name}" is given more than once')
     labels = [m if isinstance(m, str) else str(m.get("label", m.get("name"))) for m in measures]
     for loss in losses:
+        if losses.count(loss) > 1:
+            raise StudyError(f"losses (--loss) {loss.figure}", "is given more than once with this amount")
         label = loss.figure.partition(".")[0]
         if label not in labels:
             raise StudyError(f"losses (--loss) {loss.figure}", f"is of no measure here; {nearest(label, labels)}")
@@ -217,29 +221,25 @@ def _budget(
     import pandas
 
     def percentile(lost: np.ndarray) -> float:
-        # An impossible display, or one without the figure, has lost it. Between two of these the percentile is inf - inf.
-        with np.errstate(invalid="ignore"):
-            return float(np.nan_to_num(np.percentile(np.where(np.isnan(lost), np.inf, lost), percent), nan=np.inf))
+        """The smallest loss of a draw that as many as `percent` of all draws do not exceed. An impossible display, or one without the
+        figure, has lost it."""
+        return float(np.percentile(np.where(np.isfinite(lost), lost, np.inf), percent, method="higher"))
 
     lines = []
     for loss in losses if layout.alone else ():
         for group in layout.groups:
-            lost, cut, of_all = {}, {}, np.nan
-            blocks = {scale: block for of, scale, block in layout.blocks() if of == group}
-            same = min(map(len, blocks.values()))  # draws that all scales have
-            for scale, block in blocks.items():
-                of_block = loss.of(rows[loss.figure].to_numpy(float)[block.start : block.stop], without[loss.figure])
-                lost[scale] = of_block[:same]
-                if scale == 1:
-                    of_all = percentile(of_block)
+            lost, cut = {}, {}
+            for scale, block in ((s, r) for g, s, r in layout.blocks() if g == group):
+                drawn = rows.iloc[block.start : block.stop][: layout.alone]  # the same draws at each scale
+                lost[scale] = loss.of(drawn[loss.figure].to_numpy(float), without[loss.figure])
                 if np.isinf(percentile(lost[scale])):
-                    cut[scale] = _why_none(rows["error"].iloc[block.start : block.start + same], lost[scale])
+                    cut[scale] = _why_none(drawn["error"], lost[scale])
             at = {s: percentile(values) for s, values in lost.items()}
             scale, how = allowed_scale(at, loss.amount, cut)
-            if np.isnan(without[loss.figure]):
-                how = "unknown: the display without errors has no such figure"
             # How far the loss departs from a power of the scale below what was tried is not known.
             low, high = (np.nan, np.nan) if how == EXTRAPOLATED else _chance(lost, loss.amount, percent, percentile)
+            if not np.isfinite(without[loss.figure]):
+                how = "unknown: the display without errors has no such figure, or an infinite one"
             size = layout.sizes.get(group)
             lines.append(
                 {
@@ -249,7 +249,6 @@ def _budget(
                     "error": group,
                     "size": size,
                     **{f"at {s:g}": v for s, v in at.items()},
-                    "loss at its size": of_all,
                     "allowed scale": scale,
                     "allowed scale from": low,
                     "allowed scale to": high,
@@ -263,15 +262,15 @@ def _budget(
 def _chance(
     lost: dict[float, np.ndarray], amount: float, percent: float, percentile: Callable[[np.ndarray], float]
 ) -> tuple[float, float]:
-    """The central 95 % of allowed scales by bootstrap (Efron 1979): draws are resampled with replacement, alike at each scale. NaN where
-    fewer than two draws lie beyond the percentile: they do not determine it."""
+    """The central 95 % of allowed scales by bootstrap (Efron 1979): draws are resampled with replacement, alike at each scale. Bounds
+    are cut at the smallest and largest scale tried. NaN where fewer than FEWEST_BEYOND draws lie beyond the percentile."""
     draws = len(next(iter(lost.values())))
-    if draws * (1 - percent / 100) < 2 - 1e-9:
+    if draws * (1 - percent / 100) < FEWEST_BEYOND - 1e-9:
         return float("nan"), float("nan")
     again = np.random.default_rng(0).integers(0, draws, (RESAMPLES, draws))
     scales = [allowed_scale({s: percentile(values[pick]) for s, values in lost.items()}, amount)[0] for pick in again]
     low, high = np.nanpercentile(scales, (2.5, 97.5)) if np.isfinite(scales).any() else (np.nan, np.nan)
-    return float(low), float(high)
+    return float(max(low, min(lost))), float(min(high, max(lost)))
 
 
 def _why_none(reasons: "pandas.Series", lost: np.ndarray) -> str:
@@ -279,7 +278,7 @@ def _why_none(reasons: "pandas.Series", lost: np.ndarray) -> str:
     impossible = reasons.dropna()
     if len(impossible):
         return f"{len(impossible)} of {counted(len(lost), 'draw')} impossible{most_often(impossible)}"
-    return f"{int(np.isnan(lost).sum())} of {counted(len(lost), 'draw')} without the figure"
+    return f"{int((~np.isfinite(lost)).sum())} of {counted(len(lost), 'draw')} without a finite figure"
 
 
 def allowed_scale(at: dict[float, float], amount: float, cut: Mapping[float, str] | None = None) -> tuple[float, str]:
@@ -306,4 +305,5 @@ def allowed_scale(at: dict[float, float], amount: float, cut: Mapping[float, str
     if at[low] <= 0 or at[high] <= at[low]:
         return low, "or less: nothing smaller was tried" if not below else f"or a little more: at {high:g} it loses more"
     power = np.log(at[high] / at[low]) / np.log(high / low)
-    return float(low * (amount / at[low]) ** (1 / power)), how
+    scale = float(low * (amount / at[low]) ** (1 / power))
+    return (low, "or less: nothing smaller was tried") if scale < LEAST_EXTRAPOLATED * low else (scale, how)

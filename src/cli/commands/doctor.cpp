@@ -88,14 +88,14 @@ Json findings() {
     return all;
 }
 
-std::string words_of(const Json& value) {
+std::string readable(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_null()) return "-";
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
     if (!value.is_structured()) return value.dump();
     std::string text;
     for (const auto& [key, element] : value.items())
-        text += (text.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + words_of(element);
+        text += (text.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + readable(element);
     return text.empty() ? "-" : text;
 }
 
@@ -112,7 +112,7 @@ void run(const DoctorArguments& args) {
         std::string name = key;
         for (std::size_t i = 1; i < name.size(); ++i)
             if (name[i] == '_' && std::islower(name[i - 1])) name[i] = ' ';  // not in LFDSIM_KERNEL
-        text += fmt::format("{:<32} {}\n", name, words_of(value));
+        text += fmt::format("{:<32} {}\n", name, readable(value));
     }
     print(text);
 }

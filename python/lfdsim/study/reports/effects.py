@@ -51,11 +51,9 @@ class Sobol:
     total_error: np.ndarray
 
 
-def sobol(figure: np.ndarray, factors: int) -> Sobol | None:
-    """Of the rows of a saltelli design, in their order. None where a row was impossible or has no finite figure."""
+def sobol(figure: np.ndarray, factors: int) -> Sobol:
+    """Of all rows of a saltelli design, in their order: finite figures that are not all the same."""
     base = len(figure) // (factors + 2)
-    if not np.all(np.isfinite(figure)) or np.ptp(figure) == 0 or len(figure) != base * (factors + 2):
-        return None
     a, b, ab = figure[:base], figure[base : 2 * base], figure[2 * base :].reshape(factors, 1, base)
     found = stats.sobol_indices(func={"f_A": a[None], "f_B": b[None], "f_AB": ab}, n=base)
     with warnings.catch_warnings():  # a factor without any effect has no spread either: its interval is NaN, and stands for 0

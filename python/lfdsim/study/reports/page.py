@@ -7,6 +7,7 @@ import html
 import pathlib
 
 import numpy as np
+import pandas as pd
 
 from .. import files
 from ..planned import Plan
@@ -108,7 +109,9 @@ def _yield(data: Data) -> str:
     alike = " Replicates of one row resemble each other: they narrow the interval only as far as they differ."
     repeated = alike if data.plan.study.replicates > 1 else ""
     if data.plan.study.design == "saltelli":
-        repeated += f" The first {_independent(data)} rows of the design count: the others repeat their values."
+        repeated += f" The first {_base_rows(data)} rows of the design count: the others repeat their values."
+    if data.plan.study.design != "monte_carlo":
+        repeated += " The interval is that of independent draws: for rows that are spread evenly it is too wide."
     return (
         f"<h2>Yield</h2>{table(['figure', 'min', 'max', 'rows that pass', 'share', '95 % interval'], rows)}"
         f"<p class=note>Impossible rows, and rows without the figure, do not pass.{repeated}</p>"
@@ -116,14 +119,14 @@ def _yield(data: Data) -> str:
 
 
 def _share(data: Data, passed: np.ndarray) -> list[object]:
-    of, independent = data.plan.study.replicates, _independent(data)
-    of_each = np.bincount(data.rows["row"].to_numpy() // of, passed, minlength=independent)[:independent]
+    of, rows = data.plan.study.replicates, _base_rows(data)
+    of_each = np.bincount(data.rows["row"].to_numpy() // of, passed, minlength=rows)[:rows]
     share, low, high = effects.share_with_interval(of_each, of)
     return [int(of_each.sum()), f"{100 * share:.2f} %", f"{100 * low:.2f} .. {100 * high:.2f} %"]
 
 
-def _independent(data: Data) -> int:
-    """How many of the design's rows, from the first on, are drawn independently: of saltelli those of A and B, whose values the others repeat."""
+def _base_rows(data: Data) -> int:
+    """How many of the design's rows, from the first on, repeat no other's values: of saltelli those of A and B."""
     study = data.plan.study
     return 2 * study.rows if study.design == "saltelli" else data.plan.rows // study.replicates
 
@@ -151,17 +154,20 @@ def _interactions(data: Data) -> str:
 
 def _cost(data: Data) -> str:
     """Which factor moves a figure most."""
-    names, parts = list(data.factors), []
-    if not names:
+    # Texts and lists have no order: a line through them says nothing, unless they are two.
+    names = [n for n in data.factors if pd.api.types.is_numeric_dtype(data.rows[n]) or len(np.unique(data.factors[n])) == 2]
+    without = [_text(n) for n in data.factors if n not in names]
+    parts = [f"<p>Without a regression, as texts and lists have no order: {', '.join(without)}.</p>"] if without else []
+    if not data.factors:
         return ""
-    matrix = np.column_stack([data.factors[n] for n in names])
+    matrix = np.column_stack([data.factors[n] for n in names] or [np.empty((len(data.rows), 0))])
     replicates = data.plan.study.replicates
     repeated = "; replicates of one row count by their mean" if replicates > 1 else ""
     row = data.rows["row"].to_numpy() // replicates
-    drawn = row < _independent(data)
+    base = row < _base_rows(data)
     for figure in data.figures:
         y = data.rows[figure].to_numpy(float)
-        found = effects.regression(matrix[drawn], y[drawn], row[drawn])
+        found = effects.regression(matrix[base], y[base], row[base])
         if found:
             doubt = (
                 "" if found.explained > 0.5 else " That is little: the figure does not follow straight lines, and the bars say little, too."
@@ -176,14 +182,22 @@ def _cost(data: Data) -> str:
     return "<h2>What costs most</h2>" + "".join(parts) if parts else ""
 
 
+def _why_no_sobol(data: Data, y: np.ndarray) -> str:
+    """Empty where there are Sobol indices."""
+    if data.plan.study.replicates > 1:
+        return "rows have replicates"
+    if len(data.failed):
+        return f"{counted(len(data.failed), 'row')} impossible"
+    if missing := int((~np.isfinite(y)).sum()):
+        return f"{counted(missing, 'row')} without a finite figure"
+    return "all rows have the same figure" if np.ptp(y) == 0 else ""
+
+
 def _sobol(data: Data, figure: str, y: np.ndarray) -> str:
     names = [f.name for f in data.plan.study.factors]
-    found = effects.sobol(y, len(names)) if not len(data.failed) and data.plan.study.replicates == 1 else None
-    if found is None:
-        why = "rows have replicates" if data.plan.study.replicates > 1 else f"{len(data.failed)} rows are impossible"
-        if not len(data.failed) and data.plan.study.replicates == 1:
-            why = "all rows have the same figure" if np.isfinite(y).all() else "rows are without the figure"
+    if why := _why_no_sobol(data, y):
         return f"<p>{_text(figure)}: no Sobol indices: {why}.</p>"
+    found = effects.sobol(y, len(names))
     return f"<p>{_text(figure)}: Sobol indices, shares of the variance, with 95 % intervals.</p>" + plots.bars(
         names,
         found.first,

@@ -12,7 +12,7 @@ from .. import files
 from . import page, plots
 from ..errors import ALL
 from ..problems import counted, most_often
-from ..tolerances import EXTRAPOLATED, Tolerance
+from ..tolerances import EXTRAPOLATED, FEWEST_BEYOND, Tolerance
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -61,7 +61,7 @@ def _counts(found: Tolerance) -> list[str]:
         if numbers:
             sentences.append(f"{counted(len(numbers), 'draw')} {what}, {len(reasons)} of them impossible{most_often(reasons)}.")
     if layout.table:
-        sentences.append(f"Every draw, and what is measured without errors, has those of errors.table ({layout.table}), too.")
+        sentences.append(f"All rows, also the one without errors, have the errors of errors.table ({layout.table}).")
     return sentences
 
 
@@ -101,16 +101,16 @@ def _budget(found: Tolerance, lines: pd.DataFrame, percent: float) -> str:
         [
             line["error"],
             str(line["size"]) if line["error"] != ALL else "",
-            f"{line['loss at its size']:.4g}",
+            f"{line['at 1']:.4g}",
             _scale(line),
             _sizes(line),
             line["how"],
         ]
         for _, line in lines.iterrows()
     ]
-    head = ["error", "size", f"loss of the worst {100 - percent:g} %", "allowed scale", "allowed size", ""]
+    head = ["error", "size", f"loss that {percent:g} % do not exceed", "allowed scale", "allowed size", ""]
     return (
-        f"<h2>Budget for {html.escape(first['loss'])}</h2><p>It may {may} {first['allowed']:g} in {percent:g} % of all displays. {_too_few(lines)}</p>"
+        f"<h2>Budget for {html.escape(first['loss'])}</h2><p>In {percent:g} % of all displays it may {may} {first['allowed']:g} at most. {_too_few(lines)}</p>"
         + page.table(head, rows)
         + _curves(found, lines, first["allowed"])
     )
@@ -119,14 +119,18 @@ def _budget(found: Tolerance, lines: pd.DataFrame, percent: float) -> str:
 def _too_few(lines: pd.DataFrame) -> str:
     """Why known scales have no interval, where that is so; those that are extrapolated say it themselves."""
     unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna() & (lines["how"] != EXTRAPOLATED)
-    reason = "An allowed scale has no interval where fewer than two draws lie beyond the percentile; make more draws (option --alone)."
+    reason = (
+        f"An allowed scale has no interval where fewer than {FEWEST_BEYOND} draws lie beyond the percentile; make more draws (--draws, --alone)."
+    )
     return reason if unsure.any() else ""
 
 
 def _scale(line: pd.Series) -> str:
-    """The allowed scale and its interval."""
+    """The allowed scale and its interval, whose bounds are not known beyond the scales tried."""
     low, high = line["allowed scale from"], line["allowed scale to"]
-    return f"{line['allowed scale']:.3g}" + ("" if np.isnan(low) or low == high else f" ({low:.3g} to {high:.3g})")
+    tried = [float(name.removeprefix("at ")) for name in line.index if name.startswith("at ")]
+    bounds = f"{low:.3g}{' or less' * (low == min(tried))} to {high:.3g}{' or more' * (high == max(tried))}"
+    return f"{line['allowed scale']:.3g}" + ("" if np.isnan(low) or low == high else f" ({bounds})")
 
 
 def _sizes(line: pd.Series) -> str:
