@@ -27,6 +27,9 @@ constexpr double usual_prior = 0.001;
 constexpr std::int64_t content_samples = 16, held_out_content_samples = 64, held_out_rays = 512;
 constexpr int patience = 5;             // steps after which held-out eyes must have gained ...
 constexpr double least_gain_db = 0.01;  // ... this much, or the fit ends
+constexpr const char* warning_of_errors =
+    "the panel is made for the display as described, and shown by one with assembly errors: content.made_for = \"built\" makes it "
+    "for that one";
 
 /// Returns a panel picture as the unknowns of a fit, cut to 0 .. 1.
 PanelVector vector_of(const Image& image) {
@@ -43,11 +46,10 @@ Image image_of(const PanelVector& x, const Display& d) {
     return image;
 }
 
-/// Returns the mean over at most `most` views, evenly spaced; NaN if none can be compared.
-Nearness mean_nearness(const FittedViews& views, const PanelVector& x, std::size_t most) {
+/// Returns the mean over each step-th of the first `count` views; NaN if none can be compared.
+Nearness mean_nearness(const FittedViews& views, const PanelVector& x, std::size_t count, std::size_t step = 1) {
     double psnr = 0, psnr_eyes = 0, similarity = 0, similarity_eyes = 0;
-    const std::size_t step = std::max<std::size_t>((views.views().size() + most - 1) / most, 1);
-    for (std::size_t k = 0; k < views.views().size(); k += step) {
+    for (std::size_t k = 0; k < count; k += step) {
         const Nearness one = views.nearness(k, x);  // NaN where too few elements see the screen
         if (!std::isnan(one.psnr_db)) psnr += one.psnr_db, ++psnr_eyes;
         if (!std::isnan(one.ssim)) similarity += one.ssim, ++similarity_eyes;
@@ -124,8 +126,8 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     BoxSolver solver(start, centre, bound, report.prior * mean / met);
     Solved best{start};
     if (held_out) {
-        report.held_out_traced = mean_nearness(*held_out, centre, 1000);
-        report.held_out = mean_nearness(*held_out, start, 1000);
+        report.held_out_traced = mean_nearness(*held_out, centre, held_out->views().size());
+        report.held_out = mean_nearness(*held_out, start, held_out->views().size());
     }
     PanelVector gradient;
     double waited_from = report.held_out.psnr_db;
@@ -147,7 +149,7 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
             best.x = solver.x();
             continue;
         }
-        const Nearness now = mean_nearness(*held_out, solver.x(), 1000);
+        const Nearness now = mean_nearness(*held_out, solver.x(), held_out->views().size());
         if (now.psnr_db > report.held_out.psnr_db) {
             best.x = solver.x();
             report.held_out = now;
@@ -161,18 +163,21 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     return best;
 }
 
-/// Returns the bytes of the unknowns: seven arrays of them, and integers of twice the size. Throws InputError if there are fewer.
-double memory_for_unknowns(const Display& d) {
-    const double bytes = 10 * texel_bytes(d);
-    require_memory("panel.pixels", "the inverse pick-up, with its arrays of the panel's size,", bytes);
-    return bytes;
+/// Returns the bytes of the unknowns: seven arrays of them, and integers of twice the size.
+double unknowns_bytes(const Display& d) { return 10 * texel_bytes(d); }
+
+/// Throws InputError if there is no memory for the unknowns and a panel picture; before the first array of the panel's size is
+/// made.
+void require_memory_for_panel(const Display& d) {
+    require_memory("panel.pixels", "the inverse pick-up, with its arrays of the panel's size,",
+                   unknowns_bytes(d) + picture_bytes(d.panel.pixels[0], d.panel.pixels[1]));
 }
 
 /// Returns the bytes of rays that may be kept: content.inverse.memory_mb, or half of what is free beside the unknowns. Throws
-/// InputError if there is no room for the unknowns, or for one view.
+/// InputError if there is no room for one view.
 double memory_for_rays(const Request& request, const Display& seen) {
     const Inverse& keys = request.keys();
-    const double unknowns = memory_for_unknowns(request.display);
+    const double unknowns = unknowns_bytes(request.display);
     const double view =
         double(seen.camera.resolution[0]) * double(seen.camera.resolution[1]) * double(*seen.render.samples) * sizeof(PanelRay);
     const double bytes = keys.memory_mb ? *keys.memory_mb * 1e6 : std::max(free_bytes() - unknowns, 0.) / 2;
@@ -230,7 +235,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     if (job.cancelled()) return stopped();
     if (request.boxes.size() == 2) report.crosstalk = crosstalk_of(fitted, std::size_t(report.places), size);
     const PanelVector centre = centre_of(fitted, traced, exposure, bound);
-    const bool scored = !held_out_eyes.empty() && !std::isnan(mean_nearness(held_out, centre, 1000).psnr_db);
+    const bool scored = !held_out_eyes.empty() && !std::isnan(mean_nearness(held_out, centre, held_out_eyes.size()).psnr_db);
     if (!held_out_eyes.empty() && !scored)
         report.warnings.push_back("held-out eyes see too little of the screen to be compared: the last step's panel is written");
     // The steps. Where traced content is better for held-out eyes, it is the result.
@@ -240,7 +245,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
         report.held_out = report.held_out_traced;
         report.traced = !solved.stopped || report.iterations > 0;
     }
-    report.fitted = mean_nearness(fitted, solved.x, 8);
+    report.fitted = mean_nearness(fitted, solved.x, std::size_t(report.places), std::size_t(report.places + 7) / 8);
     report.seconds = seconds_since(start);
     InvertedPanel made{{image_of(solved.x, request.display), !solved.stopped, report.rays, 0, report.seconds}, {}};
     double black = 0, full = 0;
@@ -259,9 +264,9 @@ InverseReport planned(const Request& request, std::int64_t places, std::int64_t 
     report.rays_per_element = rays;
     report.rows_per_unknown = counts.rows / counts.pixels;
     report.rays_per_unknown = counts.lit * double(rays) / counts.pixels;
-    const std::string few = few_rays(request, places, report.rows_per_unknown, report.rays_per_unknown);
-    if (!few.empty()) report.warnings.push_back(few);
-    report.prior = request.keys().prior.value_or(few.empty() ? usual_prior : careful_prior);
+    const bool few = are_few_rays(report.rows_per_unknown, report.rays_per_unknown);
+    if (few) report.warnings.push_back(warning_of_few_rays(request, places, report.rows_per_unknown, report.rays_per_unknown));
+    report.prior = request.keys().prior.value_or(few ? careful_prior : usual_prior);
     return report;
 }
 
@@ -292,18 +297,15 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
         report.rim_places = std::int64_t(p.eyes.size()) - p.in_boxes;
         if (const double views = views_within(request.boxes, request.display, request.geometry);
             request.boxes.size() == 1 && views > 0 && views < 2)
-            report.warnings.push_back(
-                fmt::format("the eyes' box is only {:.2g} views wide: all its eyes see nearly the same (--eyes-mm)", views));
-        if (errors_unknown)
-            report.warnings.push_back(
-                "the panel is made for the display as described, and shown by one with assembly errors: content.made_for = "
-                "\"built\" makes it for that one");
+            report.warnings.push_back(fmt::format(
+                "the eyes' box is only {:.2g} views wide: all its eyes see nearly the same; give a wider one (--eyes-mm)", views));
+        if (errors_unknown) report.warnings.emplace_back(warning_of_errors);
         // Held-out eyes continue the places in the boxes, with numbers, and so with shifts and rays, that no other eye has.
-        const std::vector<Eye> held_out = eyes_at(places_within(request.boxes, p.in_boxes, keys.held_out), 2'000'000, 1);
+        const std::vector<Eye> held_out = eyes_at(places_within(request.boxes, p.in_boxes, keys.held_out), 2'000'000);
         InvertedPanel made = fit(request, p.eyes, held_out, p.counts, p.rays, traced, std::move(report));
         if (made.report.traced)
             made.report.warnings.push_back(
-                "traced content serves eyes that were not fitted better, and is written: there are too few places or "
+                "traced content is better for eyes that were not fitted, and is written: there are too few places or "
                 "rays, or the display cannot show more");
         return made;
     });
@@ -313,7 +315,7 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
 
 InvertedPanel invert(const Display& display, const Geometry& geometry, const ContentScene& scene, std::span<const EyeBox> boxes,
                      int threads, Job& job) {
-    memory_for_unknowns(display);
+    require_memory_for_panel(display);
     const Meant made(display, geometry);
     const Request request{made.display,
                           made.geometry,
@@ -328,7 +330,7 @@ InvertedPanel invert(const Display& display, const Geometry& geometry, const Con
 
 InvertedPanel invert(const Display& display, const Geometry& geometry, const LightField& field, std::span<const EyeBox> boxes,
                      int threads, Job& job) {
-    memory_for_unknowns(display);
+    require_memory_for_panel(display);
     const Meant made(display, geometry);
     const double focus_z = made.geometry.vertex_plane_mm + field.grid().depth_mm;
     FieldRays rays;
@@ -365,17 +367,20 @@ InvertedPanel invert(const Display& display, const Geometry& as_shown, const Eye
         if (const auto least = std::ranges::min_element(picture.rgb); *least < 0)
             throw InputError(fmt::format("targets[{}]", k), fmt::format("has the light {}; there is none below 0", *least));
     }
-    memory_for_unknowns(display);
+    require_memory_for_panel(display);
     const Meant made(display, as_shown);
     const Request request{made.display, made.geometry, display, made.geometry.vertex_plane_mm + made.geometry.content_depth_mm, {},
                           {},           threads,       job};
     return on_threads(threads, [&] {
         std::vector<Eye> eyes;
         for (std::size_t k = 0; k < wanted.eyes_mm.size(); ++k)
-            eyes.push_back({wanted.eyes_mm[k], std::int64_t(k), 1, &wanted.pictures[k]});
+            eyes.push_back({.place = wanted.eyes_mm[k], .number = std::int64_t(k), .picture = &wanted.pictures[k]});
         const EyeCounts counts = count(request, eyes);
+        if (job.cancelled()) return InvertedPanel{{Image(int(display.panel.pixels[0]), int(display.panel.pixels[1])), false}, {}};
         const std::int64_t rays = request.keys().rays.value_or(rays_for(counts));
-        return fit(request, eyes, {}, counts, rays, {}, planned(request, std::int64_t(eyes.size()), rays, counts));
+        InverseReport report = planned(request, std::int64_t(eyes.size()), rays, counts);
+        if (made.errors_unknown) report.warnings.emplace_back(warning_of_errors);
+        return fit(request, eyes, {}, counts, rays, {}, std::move(report));
     });
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t fewest_places = 24;  // of a box: with 6 or 8 some eyes between them lose 1 to 2.6 dB
 constexpr std::int64_t most_places = 1024;  // unless a number is given: where views have too few elements, more take very long
-constexpr double rim_weight = 0.25;         // of all eyes around the boxes, over that of the eyes in them
+constexpr double rim_weight = 0.25;         // of all eyes around the boxes, relative to that of all eyes in them
 constexpr double fewest_rows = 2, fewest_rays = 20;  // for each panel pixel met: below this the fit follows noise
 constexpr std::int64_t rays_to_count = 4;            // of an element, to count the pixels that are met
 
@@ -32,9 +32,11 @@ std::pair<double, double> shift_of(const Request& request, std::int64_t place) {
 
 }  // namespace
 
-std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight) {
+std::int64_t Eye::samples(std::int64_t n) const { return 4 * std::max<std::int64_t>(std::llrint(rays * double(n) / 4), 1); }
+
+std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight, double rays) {
     std::vector<Eye> eyes;
-    for (const Vec3d& place : places) eyes.push_back({place, first + std::int64_t(eyes.size()), weight});
+    for (const Vec3d& place : places) eyes.push_back({place, first + std::int64_t(eyes.size()), weight, rays});
     return eyes;
 }
 
@@ -42,7 +44,7 @@ Display display_of(const Request& request, const Display& display, const Geometr
     const auto [x, y] = shift_of(request, eye.number);
     Display seen = eye.picture ? seen_by_camera_at(display, geometry, eye.place, {eye.picture->width, eye.picture->height})
                                : seen_by_eye(display, geometry, eye.place, request.content_z_mm, x, y);
-    seen.render.samples = rays;
+    seen.render.samples = eye.samples(rays);
     // Each eye has different rays: what a fit makes of one eye's noise is then noise for the next.
     seen.render.seed = std::int64_t((std::uint64_t(display.render.seed) + 0x9e3779b97f4a7c15u * std::uint64_t(eye.number)) >> 1);
     return seen;
@@ -73,10 +75,10 @@ EyeCounts count(const Request& request, std::span<const Eye> eyes) {
             for (std::size_t s = p; s < p + samples; ++s)
                 if (found[s].share > 0) {
                     std::atomic_ref(met[subpixels ? found[s].place >> 2 : found[s].place]).store(1, std::memory_order_relaxed);
-                    counts.lit += 1 / double(samples);  // for one ray an element
+                    counts.lit += eyes[k].rays / double(samples);  // for one ray an element
                     lit = true;
                 }
-            counts.rows += lit;
+            if (lit) counts.rows += eyes[k].rays;
         }
     });
     EyeCounts counts;
@@ -91,8 +93,9 @@ std::int64_t rays_for(const EyeCounts& counts) {
     return 4 * std::clamp<std::int64_t>(std::int64_t(std::ceil(needed / 4)), 1, 1024);
 }
 
-std::string few_rays(const Request& request, std::int64_t places, double rows, double rays) {
-    if (rows >= fewest_rows && rays >= fewest_rays) return {};
+bool are_few_rays(double rows, double rays) { return rows < fewest_rows || rays < fewest_rays; }
+
+std::string warning_of_few_rays(const Request& request, std::int64_t places, double rows, double rays) {
     const Inverse& keys = request.keys();
     const bool pictures = request.boxes.empty();
     std::vector<std::string> remedies;
@@ -130,7 +133,7 @@ Plan plan(const Request& request) {
         views > 0 ? std::max(fewest_places * boxes, std::int64_t(std::min(std::ceil(views), double(most_places)))) : boxes);
     // More of them, until their views have rows_wanted elements for each panel pixel met
     for (int attempt = 0;; ++attempt) {
-        const EyeCounts inside = count(request, eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1));
+        const EyeCounts inside = count(request, eyes_at(places_within(request.boxes, 0, p.in_boxes), 0));
         if (request.job.cancelled()) return p;
         const double ratio = inside.rows / inside.pixels;
         const bool fixed = keys.places || views == 0;
@@ -139,15 +142,16 @@ Plan plan(const Request& request) {
         p.in_boxes =
             std::min(std::int64_t(std::ceil(double(p.in_boxes) * std::max(1.05 * rows_wanted / ratio, 1.02))), most_places);
     }
-    // As many around the boxes, which together have rim_weight of their weight; four times as many around boxes with width and
-    // height, whose rim has corners
-    p.eyes = eyes_at(places_within(request.boxes, 0, p.in_boxes), 0, 1);
+    // As many around the boxes; four times as many around boxes with width and height, whose rim has corners, with as much weight
+    // and as many rays in all
+    p.eyes = eyes_at(places_within(request.boxes, 0, p.in_boxes), 0);
     const bool areas =
         std::ranges::any_of(request.boxes, [](const EyeBox& box) { return box.high[0] > box.low[0] && box.high[1] > box.low[1]; });
     const int times = areas ? 4 : 1;
     const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, times * p.in_boxes);
-    for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight / times))) p.eyes.push_back(eye);
+    for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight / times), 1. / times)) p.eyes.push_back(eye);
     p.counts = count(request, p.eyes);
+    if (request.job.cancelled()) return p;
     p.rays = keys.rays.value_or(rays_for(p.counts));
     return p;
 }

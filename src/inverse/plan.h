@@ -35,11 +35,14 @@ struct Request {
 struct Eye {
     Vec3d place;                     // mm, in the display's frame
     std::int64_t number;             // decides the shift of its grid of elements, and its rays
-    float weight;                    // of its errors
+    float weight = 1;                // of its errors
+    double rays = 1;                 // of an element of its view, relative to those of other eyes
     const Image* picture = nullptr;  // what it should see, where that is given
+    /// Returns the samples for an element of this eye's view where other eyes have n: a multiple of 4.
+    std::int64_t samples(std::int64_t n) const;
 };
 /// Returns eyes at these places, with numbers from `first` on.
-std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight);
+std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight = 1, double rays = 1);
 
 /// Returns the display with the camera that represents an eye, and `rays` for each element of its view. Throws InputError for a
 /// place from which the display cannot be seen.
@@ -52,7 +55,8 @@ InputError no_light(const Request&);
 struct EyeCounts {
     double pixels = 0, rows = 0, lit = 0;  // panel pixels met; elements with light; rays with light, with one ray an element
 };
-/// Counts these with a few rays for each element. Unfinished where the job is cancelled. Throws InputError if there is none.
+/// Counts these with a few rays for each element; an eye with fewer rays than others counts as a part. Unfinished where the job is
+/// cancelled. Throws InputError if there is none.
 EyeCounts count(const Request&, std::span<const Eye>);
 
 /// The intended numbers of elements of views and of rays with light for each panel pixel that eyes meet.
@@ -60,9 +64,12 @@ inline constexpr double rows_wanted = 4, rays_wanted = 160;
 /// Returns the rays per element, a multiple of 4 up to 4096, with which each panel pixel met has rays_wanted rays that carry light.
 std::int64_t rays_for(const EyeCounts&);
 
-/// Returns what to warn of if views from `places` eyes have too few elements, `rows`, or too few rays with light for each panel
-/// pixel that they meet: the fit follows noise there, and takes careful_prior. Empty if there are enough.
-std::string few_rays(const Request&, std::int64_t places, double rows, double rays);
+/// Returns whether views have so few elements (`rows`), or rays with light, for each panel pixel that they meet that a fit follows
+/// noise.
+bool are_few_rays(double rows_per_pixel, double rays_per_pixel);
+/// Returns the warning of that, for views from `places` eyes, with what to give instead.
+std::string warning_of_few_rays(const Request&, std::int64_t places, double rows_per_pixel, double rays_per_pixel);
+/// The prior of a fit with few rays.
 inline constexpr double careful_prior = 0.3;
 
 /// Returns the number of points by which an element's light of a white panel is computed: four with light, in each colour, for each

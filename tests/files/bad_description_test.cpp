@@ -91,6 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{with("[camera]", "[camera]\npitch_mm = 3"), "d:16:1", "camera.pitch_mm: is unknown here; it belongs in [array]"},
         Bad{with("pitch_mm = 12.0", "pitch_mm: 12.0"), "d:13:9", R"("pitch_mm: 12.0" is not of the form KEY = VALUE)"},
         Bad{with("pitch_mm = 12.0", "pitch_mm ="), "d:13:11", "pitch_mm: the value is missing"},
+        Bad{with("\"plano_convex\"", "plano_convex"), "d:7:8", "type: text is written in quotes: \"plano_convex\""},
+        Bad{with("pitch_mm = 12.0", "pitch_mm = [12,\nnan, x]"), "d:14:6", "could not determine value type"},
         Bad{with("pitch_mm = 12.0", "pitch_mm = [12, 9, 3]"), "d:13:12",
             "array.pitch_mm: is a list; give a number, or a list of 2 numbers"},
         Bad{with("pitch_mm = 12.0", "pitch_mm = [12, \"9\"]"), "d:13:12", "element 1 is a string; give a number"},

@@ -119,7 +119,9 @@ TEST(Override, FaultsNameTheOption) {
     EXPECT_THAT(fault_of({"name=a\xff"}), HasSubstr("the value is not TOML"));  // as no file may have it
     EXPECT_THAT(fault_of({"array.pitch_mm=abc"}), HasSubstr("--set array.pitch_mm=abc: the value is not TOML"));
     EXPECT_THAT(fault_of({"array.pitch_mm="}), HasSubstr("the value is not TOML: the value is missing"));
-    EXPECT_THAT(fault_of({"model=x"}), HasSubstr("the value is not TOML: text is written in quotes: \"x\""));
+    EXPECT_THAT(fault_of({"model=x.obj"}), HasSubstr("model: is unknown here; it belongs in [content]"));
+    EXPECT_THAT(fault_of({"diffuser=off"}), HasSubstr("diffuser: is a string; give a table"));
+    EXPECT_THAT(fault_of({"camera.name=x"}), HasSubstr("it belongs in the file's beginning, before all tables"));
     EXPECT_THAT(fault_of({"gap_mm=3"}), HasSubstr("gap_mm: is unknown here; it belongs in [array] or [errors]"));
     EXPECT_THAT(fault_of({"array.pitch_mm=13\nx=3"}), HasSubstr("is more than one value"));
     EXPECT_THAT(fault_of({"array.pitch_mm.x=3"}), HasSubstr("pitch_mm is a value, and has no parts"));

@@ -252,6 +252,8 @@ TEST_F(AnswersTest, APictureOfOtherColoursIsWarnedOf) {
     lfdsim::test::save(file, bytes);
     EXPECT_THAT(resolved(library(), w)["warnings"][0], HasSubstr("panel.png: "));
     EXPECT_THAT(resolved(library(), wanted())["warnings"].dump(), Not(HasSubstr("panel.png")));
+    lfdsim::test::save(file, "no picture");
+    EXPECT_EQ(resolved(library(), w)["type"], "resolved");
 }
 
 TEST_F(AnswersTest, ProblemsAreToldByKey) {

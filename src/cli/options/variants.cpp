@@ -10,9 +10,7 @@
 namespace lfdsim::cli {
 
 std::vector<Variant> variants_of(const std::string& text) {
-    const std::string wanted = text == "pickup"              ? "content.pickup=nodal,traced,inverse"
-                               : text.starts_with("pickup=") ? "content." + text
-                                                             : text;
+    const std::string wanted = text == "pickup" ? "content.pickup=nodal,traced,inverse" : text;
     const std::size_t equals = std::min(wanted.find('='), wanted.size());
     const std::string key = wanted.substr(0, equals);
     std::vector<std::string> values{""};

@@ -213,7 +213,8 @@ class DisplayReader {
         const std::string_view meant = nearest(key.str(), known);
         std::set<std::string> elsewhere;  // the tables that have this key
         for (const FormatTable& table : format_tables())
-            if (table.is != PartKind::list && has_key(table, key.str())) elsewhere.insert("[" + table.path + "]");
+            if (table.is != PartKind::list && has_key(table, key.str()))
+                elsewhere.insert(table.path.empty() ? "the file's beginning, before all tables" : "[" + table.path + "]");
         add_superfluous(source.place(key, where), where,
                         elsewhere.empty()
                             ? fmt::format("is unknown; {}", meant.empty() ? fmt::format("known are {}", fmt::join(known, ", "))

@@ -16,7 +16,7 @@ namespace {
 
 enum class ValueForm { number, list, other };
 
-/// The form in which a value of a type is written; of `other` no hint is known.
+/// The form in which a value of a type is written; `other`: as a text or a word.
 template <class Value>
 constexpr ValueForm form = has_words<Value>              ? ValueForm::other
                            : std::is_arithmetic_v<Value> ? ValueForm::number
@@ -119,9 +119,9 @@ std::string number_hint(std::string_view path, std::string_view value) {
     return "give a number such as 12.5 or 1e3";
 }
 
-/// Returns the hint for a value of another form, or of an unknown key.
+/// Returns the hint for the value of a key that takes a text or a word.
 std::string text_hint(std::string_view value) {
-    const bool word = std::isalpha(static_cast<unsigned char>(value[0])) &&
+    const bool word = std::isalpha(static_cast<unsigned char>(value[0])) && value != "true" && value != "false" &&
                       std::all_of(value.begin(), value.end(), [](char c) { return c >= ' ' && c <= '~' && c != '"'; });
     return word ? fmt::format("text is written in quotes: \"{}\"", value) : "";
 }
@@ -144,7 +144,7 @@ std::string override_hint(std::string_view path, std::string_view value) {
         case ValueForm::other:
             break;
     }
-    return text_hint(value);
+    return key_at(path) ? text_hint(value) : "";
 }
 
 }  // namespace lfdsim

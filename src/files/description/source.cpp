@@ -55,8 +55,10 @@ Node* child(Node& node, std::string_view part) {
 // one value.
 toml::table parse_value(std::string_view path, std::string_view value) {
     // Unquoted words save the user a second pair of quotes against the shell. The parser checks that they are UTF-8.
-    if ((takes_word(path) || (takes_glass(path) && !value.starts_with('{'))) && !value.starts_with('"') && !value.starts_with('\''))
-        return toml::parse("value = " + toml_text(std::string(value)));
+    // What is not a key, or is a table, is refused by its name, whatever its value is.
+    const bool refused = !key_at(path) && !value.empty() && std::isalpha(static_cast<unsigned char>(value[0]));
+    const bool word = takes_word(path) || (takes_glass(path) && !value.starts_with('{')) || refused;
+    if (word && !value.starts_with('"') && !value.starts_with('\'')) return toml::parse("value = " + toml_text(std::string(value)));
     const std::string text = fmt::format("value = {}", value);
     check_text(text, "");  // nesting, as in a file
     toml::table holder = toml::parse(text);
@@ -78,9 +80,11 @@ std::string hint_in(std::string_view text, std::size_t line, std::string_view sa
             table = std::string(one.substr(brackets, one.find(']') - brackets)) + (brackets == 2 ? ".0." : ".");
         const std::size_t equals = one.find('=');
         if (n < line) continue;
-        if (equals == one.npos && !one.empty() && std::isalpha(static_cast<unsigned char>(one[0])))
-            return fmt::format("\"{}\" is not of the form KEY = VALUE", shortened(one));
-        if (equals == one.npos) continue;
+        if (equals == one.npos) {
+            const std::string_view word = one.substr(0, one.find_first_of(" \t:"));
+            return key_at(table + std::string(word)) ? fmt::format("\"{}\" is not of the form KEY = VALUE", shortened(one))
+                                                     : std::string(says);
+        }
         std::string_view value = one.substr(equals + 1);
         if (value.find_first_of("\"'") == value.npos) value = value.substr(0, value.find('#'));
         std::string_view key = one.substr(0, equals);

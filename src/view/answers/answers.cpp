@@ -169,14 +169,16 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
     throw InputError("exr", "has no answer: the picture is sent as a frame of the lane \"file\"");
 }
 
-/// Returns what to warn of: of the picture that the panel shows, then of the display.
-std::vector<std::string> warnings(const Library& library, const Wanted& wanted, const Display& display,
-                                  std::vector<std::string> of_display) {
+/// Returns what to warn of in the picture that the panel shows; nothing where it has none, or cannot be read, which its frame says.
+std::vector<std::string> warnings_of_picture(const Library& library, const Wanted& wanted, const Display& display) {
     const Shown shown = library.shown(wanted.shown);
-    if (shown.kind != Shown::Kind::panel_image) return of_display;
-    const std::string colours = other_colours(shown.name, display.panel.encoding);
-    if (!colours.empty()) of_display.insert(of_display.begin(), fmt::format("{}: {}", shown.name, colours));
-    return of_display;
+    if (shown.kind != Shown::Kind::panel_image) return {};
+    try {
+        const std::string colours = other_colours(shown.name, display.panel.encoding);
+        if (!colours.empty()) return {fmt::format("{}: {}", shown.name, colours)};
+    } catch (const InputError&) {
+    }
+    return {};
 }
 
 }  // namespace
@@ -190,13 +192,15 @@ Json resolved(const Library& library, const Wanted& wanted) {
         const Display display = library.display(wanted);
         const Geometry geometry = resolve(display);
         const Theory paraxial = theory(display, geometry);
+        std::vector<std::string> warnings = warnings_of_picture(library, wanted, display);
+        for (std::string& of_display : verdicts_and_advice(display, geometry, paraxial)) warnings.push_back(std::move(of_display));
         return in_utf8({{"type", "resolved"},
                         {"id", wanted.id},
                         {"name", display.name.empty() ? library.description(wanted).file.stem().string() : display.name},
                         {"controls", controls(display, described(library, wanted, display))},
                         {"theory", json_of(figures(display, geometry, paraxial))},
                         {"geometry", json_of(figures(display, geometry))},
-                        {"warnings", warnings(library, wanted, display, verdicts_and_advice(display, geometry, paraxial))},
+                        {"warnings", warnings},
                         {"command", command(library, wanted)}});
     } catch (const InputError& error) {
         return problems_message(wanted.id, error.problems);
