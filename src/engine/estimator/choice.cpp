@@ -276,7 +276,8 @@ RegionChoice EstimatorChoice::choose(Kernel kernel, int column, int row) const {
     if (!given_)
         while (error_of(choice.points) > Limits::points_rms * light_ && choice.points < Limits::most_chosen_points)
             choice.points *= 2;
-    choice.error = error_of(choice.points);
+    const double many = double(choice.points) / points;
+    choice.error = spread * std::pow(many, many > 1 ? Limits::falls_at_least_as : Limits::falls_as);
     return choice;
 }
 

@@ -82,8 +82,9 @@ struct FilteredLimits {
                             points_rms = 0.04;
     // The error of a pixel by 36 Sobol points over that by 16. A pixel of filtered light may be as wrong as one of 36 points.
     static constexpr double of_36_points = 0.5;
-    // The power of the number of points by which their error falls, at least.
-    static constexpr double falls_as = -0.62;
+    // The power of the number of points by which their error falls: on most displays, with which a number is chosen; and at least,
+    // with which the error of more points than were compared is stated.
+    static constexpr double falls_as = -0.62, falls_at_least_as = -0.5;
     // Numbers of points a pixel: with which a region's places are first and last measured, four times as many in each step; the
     // most that are chosen.
     static constexpr std::uint32_t first_points = 16, last_points = 256, most_chosen_points = 16384;
