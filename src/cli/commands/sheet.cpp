@@ -23,7 +23,7 @@ struct SheetArguments {
     Option output = command.option("-o,--output", "FILE", "Picture to write: .png (sRGB), or linear .exr .npy").required();
     Option columns = command.option("--columns", "N", "Pictures in a row; default 2").initially("2");
     Option width_px = command.option("--width-px", "W", "Width of each picture on the sheet; default 640").initially("640");
-    List labels = command.list("--label", "TEXT", "Text above a picture; one for each, in order").one_each();
+    List labels = command.list("--label", "TEXT", "Text above a picture; this option once for each, in order").one_each();
     Flag json = command.flag("--json", "Print results as JSON");
 };
 

@@ -122,6 +122,9 @@ std::optional<ReadViews> read_views(const ViewsSource& source, const ViewsWish& 
         if (job.cancelled()) return {};
         maps.emplace_back();
         if (!depth.empty()) {
+            if (holds_codes(depth))
+                throw InputError(depth.string(),
+                                 "has codes from 0 to white; give a depth map of numbers: .exr, .pfm, or .npy of floats");
             const Image values = read_image(depth, Encoding::linear);
             if (std::abs(std::int64_t(values.width) * height - std::int64_t(values.height) * width) > std::max(width, height))
                 throw InputError(depth.string(), fmt::format("is {} x {} pixels, whose aspect is not that of the views, {} x {}",
