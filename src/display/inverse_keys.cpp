@@ -21,8 +21,7 @@ constexpr Key<Inverse> inverse_keys[] = {
      "Number of further eyes in the box that are not fitted; the panel picture that is best for them is chosen."},
     {"rim", &Inverse::rim, Range{0, 100}, false,
      "Width, in view steps, of a margin around the box with as many further eyes (four times as many around one with width and "
-     "height), "
-     "which together have a quarter of the weight, so that views just outside the box are not degraded.",
+     "height), which together have a quarter of the weight, so that views just outside the box are not degraded.",
      "3; 0 for strips"},
     {"pupil_mm", &Inverse::pupil_mm, Range{shortest_mm, 100}, false, "Pupil diameter of these eyes.", "the camera's pupil, or 4"},
     {"pixel_mm", &Inverse::pixel_mm, Range{shortest_mm, 1000}, false,

@@ -146,9 +146,8 @@ ViewsOption::PanelOfViews ViewsOption::make(const Display& display, const Geomet
             fmt::format("; {:.1f} % pass beside the views' edges and are black", 100 * double(made.field.beside_focus) / rays);
     if (2 * double(made.field.beside_cameras + made.field.beside_focus) > rays)
         spdlog::warn(
-            "{}: more than half of the panel is black, as its rays pass beside the views: their cameras or focus "
-            "(--focus-width-mm, "
-            "--focus-depth-mm) are not where this display shows them",
+            "{}: more than half of the panel is black, as its rays pass beside the views: their cameras or focus are not where "
+            "this display shows them (--focus-width-mm, --focus-depth-mm)",
             source_.name);
     return made;
 }

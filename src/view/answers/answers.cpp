@@ -171,9 +171,9 @@ Json answer_to(const Library& library, Panels& panels, const Wanted& wanted, con
 
 /// Returns what to warn of in the picture that the panel shows; nothing where it has none, or cannot be read, which its frame says.
 std::vector<std::string> warnings_of_picture(const Library& library, const Wanted& wanted, const Display& display) {
-    const Shown shown = library.shown(wanted.shown);
-    if (shown.kind != Shown::Kind::panel_image) return {};
     try {
+        const Shown shown = library.shown(wanted.shown);
+        if (shown.kind != Shown::Kind::panel_image) return {};
         const std::string colours = other_colours(shown.name, display.panel.encoding);
         if (!colours.empty()) return {fmt::format("{}: {}", shown.name, colours)};
     } catch (const InputError&) {
