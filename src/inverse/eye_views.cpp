@@ -108,7 +108,7 @@ std::optional<std::vector<View>> views_of(const Request& request, const Display&
         const Geometry there = resolve(seen);
         Image content = eye.picture ? *eye.picture : request.content_of(seen, there, samples, quiet);
         Display white_view = seen;
-        white_view.render.samples = eye.samples(white_points);
+        white_view.render.samples = white_points;
         RenderOptions options;
         options.threads = request.threads;  // which eyes and tiles share
         options.device = "cpu";

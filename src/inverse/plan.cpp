@@ -32,11 +32,9 @@ std::pair<double, double> shift_of(const Request& request, std::int64_t place) {
 
 }  // namespace
 
-std::int64_t Eye::samples(std::int64_t n) const { return 4 * std::max<std::int64_t>(std::llrint(rays * double(n) / 4), 1); }
-
-std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight, double rays) {
+std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight) {
     std::vector<Eye> eyes;
-    for (const Vec3d& place : places) eyes.push_back({place, first + std::int64_t(eyes.size()), weight, rays});
+    for (const Vec3d& place : places) eyes.push_back({place, first + std::int64_t(eyes.size()), weight});
     return eyes;
 }
 
@@ -44,7 +42,7 @@ Display display_of(const Request& request, const Display& display, const Geometr
     const auto [x, y] = shift_of(request, eye.number);
     Display seen = eye.picture ? seen_by_camera_at(display, geometry, eye.place, {eye.picture->width, eye.picture->height})
                                : seen_by_eye(display, geometry, eye.place, request.content_z_mm, x, y);
-    seen.render.samples = eye.samples(rays);
+    seen.render.samples = rays;
     // Each eye has different rays: what a fit makes of one eye's noise is then noise for the next.
     seen.render.seed = std::int64_t((std::uint64_t(display.render.seed) + 0x9e3779b97f4a7c15u * std::uint64_t(eye.number)) >> 1);
     return seen;
@@ -75,10 +73,10 @@ EyeCounts count(const Request& request, std::span<const Eye> eyes) {
             for (std::size_t s = p; s < p + samples; ++s)
                 if (found[s].share > 0) {
                     std::atomic_ref(met[subpixels ? found[s].place >> 2 : found[s].place]).store(1, std::memory_order_relaxed);
-                    counts.lit += eyes[k].rays / double(samples);  // for one ray an element
+                    counts.lit += 1 / double(samples);  // for one ray an element
                     lit = true;
                 }
-            if (lit) counts.rows += eyes[k].rays;
+            counts.rows += lit;
         }
     });
     EyeCounts counts;
@@ -142,14 +140,14 @@ Plan plan(const Request& request) {
         p.in_boxes =
             std::min(std::int64_t(std::ceil(double(p.in_boxes) * std::max(1.05 * rows_wanted / ratio, 1.02))), most_places);
     }
-    // As many around the boxes; four times as many around boxes with width and height, whose rim has corners, with as much weight
-    // and as many rays in all
+    // As many around the boxes; four times as many, with as much weight in all, around boxes with width and height, whose rim has
+    // corners
     p.eyes = eyes_at(places_within(request.boxes, 0, p.in_boxes), 0);
     const bool areas =
         std::ranges::any_of(request.boxes, [](const EyeBox& box) { return box.high[0] > box.low[0] && box.high[1] > box.low[1]; });
     const int times = areas ? 4 : 1;
     const std::vector<Vec3d> around = places_around(request.boxes, request.display, request.geometry, rim, times * p.in_boxes);
-    for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight / times), 1. / times)) p.eyes.push_back(eye);
+    for (const Eye& eye : eyes_at(around, 1'000'000, float(rim_weight / times))) p.eyes.push_back(eye);
     p.counts = count(request, p.eyes);
     if (request.job.cancelled()) return p;
     p.rays = keys.rays.value_or(rays_for(p.counts));

@@ -36,13 +36,10 @@ struct Eye {
     Vec3d place;                     // mm, in the display's frame
     std::int64_t number;             // decides the shift of its grid of elements, and its rays
     float weight = 1;                // of its errors
-    double rays = 1;                 // of an element of its view, relative to those of other eyes
     const Image* picture = nullptr;  // what it should see, where that is given
-    /// Returns the samples for an element of this eye's view where other eyes have n: a multiple of 4.
-    std::int64_t samples(std::int64_t n) const;
 };
 /// Returns eyes at these places, with numbers from `first` on.
-std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight = 1, double rays = 1);
+std::vector<Eye> eyes_at(std::span<const Vec3d> places, std::int64_t first, float weight = 1);
 
 /// Returns the display with the camera that represents an eye, and `rays` for each element of its view. Throws InputError for a
 /// place from which the display cannot be seen.
@@ -55,8 +52,7 @@ InputError no_light(const Request&);
 struct EyeCounts {
     double pixels = 0, rows = 0, lit = 0;  // panel pixels met; elements with light; rays with light, with one ray an element
 };
-/// Counts these with a few rays for each element; an eye with fewer rays than others counts as a part. Unfinished where the job is
-/// cancelled. Throws InputError if there is none.
+/// Counts these with a few rays for each element. Unfinished where the job is cancelled. Throws InputError if there is none.
 EyeCounts count(const Request&, std::span<const Eye>);
 
 /// The intended numbers of elements of views and of rays with light for each panel pixel that eyes meet.
