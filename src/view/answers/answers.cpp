@@ -208,7 +208,7 @@ Json resolved(const Library& library, const Wanted& wanted) {
 }
 
 Json answer(const Library& library, Panels& panels, const Wanted& wanted, const Ask& ask, const std::function<bool()>& cancelled) {
-    const std::string what(question_words.begin()[std::size_t(ask.what)]);
+    const std::string what(question_words[std::size_t(ask.what)]);
     Json answer{{"type", "answer"}, {"id", ask.id}, {"what", what}, {"problems", Json::array()}};
     const auto problem = [&](const std::string& where, const std::string& wrong) {
         answer["problems"] = json_of({{where, wrong}});

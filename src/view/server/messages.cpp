@@ -73,10 +73,11 @@ std::string text(const Parsed& json, const std::string& where) {
 }
 
 /// Returns the index of a text in a list of words.
-std::size_t choice(const Parsed& json, const std::string& where, std::initializer_list<std::string_view> words) {
+template <std::size_t count>
+std::size_t choice(const Parsed& json, const std::string& where, const std::string_view (&words)[count]) {
     if (json.is_string())
-        for (std::size_t i = 0; i < words.size(); ++i)
-            if (json.get_ref<const std::string&>() == words.begin()[i]) return i;
+        for (std::size_t i = 0; i < count; ++i)
+            if (json.get_ref<const std::string&>() == words[i]) return i;
     refuse(where, json, fmt::format("one of {}", fmt::join(words, ", ")));
 }
 
@@ -146,8 +147,8 @@ Ask ask(Object& object) {
     Ask a;
     a.id = whole(object.at("id"), "id", 0, largest_id);
     a.what = Ask::What(choice(object.at("what"), "what", question_words));
-    const auto name_of = [&](std::initializer_list<std::string_view> names) {
-        return std::string(names.begin()[choice(object.at("name"), "name", names)]);
+    const auto name_of = [&]<std::size_t count>(const std::string_view(&names)[count]) {
+        return std::string(names[choice(object.at("name"), "name", names)]);
     };
     if (a.what == Ask::What::probe) {
         const Parsed& at = list(object.at("at"), "at", 2, 2);

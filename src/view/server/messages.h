@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -66,7 +65,7 @@ struct Ask {
     double width = plot_width;   // plot: pixels
 };
 /// The words for Ask::What, in its order.
-inline constexpr std::initializer_list<std::string_view> question_words{"probe", "side", "plot", "files", "toml", "save", "exr"};
+inline constexpr std::string_view question_words[]{"probe", "side", "plot", "files", "toml", "save", "exr"};
 
 using Message = std::variant<Wanted, Ask>;
 
