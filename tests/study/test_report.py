@@ -187,6 +187,16 @@ class Page(StudyTest):
         self.assertEqual(int(lines[1][1]), 3 * int(lines[0][1]))
         self.assertEqual(lines[1].groups()[1:], lines[0].groups()[1:])
 
+    def test_texts_have_no_regression(self):
+        text = 'schema = 1\ndisplay = "display.toml"\ndesign = "grid"\n[[factor]]\nkey = "content.pickup"\n'
+        text += 'values = ["nodal", "traced", "integrated"]\n[[measure]]\nname = "check"\n[[limit]]\nfigure = "check.theory.views"\nmin = 1\n'
+        out = self.folder / "out"
+        study.run(self.write(text), out, workers=1, progress=False)
+        study.report(out)
+        report = (out / page.NAME).read_text()
+        self.assertIn("Left out of the regression, as texts and lists have no order: content.pickup.", report)
+        self.assertNotIn("by linear regression", report)
+
     def test_rows_of_saltelli_that_repeat_values_do_not_count(self):
         factor = '[[factor]]\nkey = "KEY"\nuniform = { from = FROM, to = TO }\n'
         factors = factor.replace("KEY", "array.gap_mm").replace("FROM", "16.3").replace("TO", "16.7")

@@ -157,17 +157,17 @@ def _cost(data: Data) -> str:
     # Texts and lists have no order: a line through them says nothing, unless they are two.
     names = [n for n in data.factors if pd.api.types.is_numeric_dtype(data.rows[n]) or len(np.unique(data.factors[n])) == 2]
     without = [_text(n) for n in data.factors if n not in names]
-    parts = [f"<p>Without a regression, as texts and lists have no order: {', '.join(without)}.</p>"] if without else []
+    parts = [f"<p>Left out of the regression, as texts and lists have no order: {', '.join(without)}.</p>"] if without else []
     if not data.factors:
         return ""
-    matrix = np.column_stack([data.factors[n] for n in names] or [np.empty((len(data.rows), 0))])
+    matrix = np.column_stack([data.factors[n] for n in names]) if names else None
     replicates = data.plan.study.replicates
     repeated = "; replicates of one row count by their mean" if replicates > 1 else ""
     row = data.rows["row"].to_numpy() // replicates
     base = row < _base_rows(data)
     for figure in data.figures:
         y = data.rows[figure].to_numpy(float)
-        found = effects.regression(matrix[base], y[base], row[base])
+        found = None if matrix is None else effects.regression(matrix[base], y[base], row[base])
         if found:
             doubt = (
                 "" if found.explained > 0.5 else " That is little: the figure does not follow straight lines, and the bars say little, too."
