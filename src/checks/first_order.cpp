@@ -55,8 +55,10 @@ std::vector<Problem> out_of_range(const DesignRequest& r) {
 }
 
 /// Returns L, the depth of the central depth plane, mm from the lenses, where none is requested: a tenth of the viewing distance
-/// in front of them; for an eye too near to see the lenses sharply, a metre behind them.
-double chosen_depth_mm(const DesignRequest& r) { return r.distance_mm < nearest_sight_mm ? -1000 : rounded(r.distance_mm / 10); }
+/// in front of them; for an eye too near to see the lenses sharply, a metre behind them, or `longest`, mm, if that is less.
+double chosen_depth_mm(const DesignRequest& r, double longest) {
+    return r.distance_mm < nearest_sight_mm ? -std::min(1000., std::floor(longest)) : rounded(r.distance_mm / 10);
+}
 
 /// Returns N, the panel pixels behind a lens of the pitch N a, and the rule that determines it; a is the pixel pitch, mm. Seen
 /// from the eye, a lens and the image of a pixel in the central depth plane are to be equally wide, p/E = P_I/(E - L). With P_I =
@@ -126,15 +128,16 @@ void place_lenses(FirstOrder& o, double L) {
 /// filled in as far as that point.
 std::optional<Problem> design(FirstOrder& o) {
     DesignRequest& r = o.request;
-    if (!r.depth_mm) r.depth_mm = chosen_depth_mm(r);
-    const double L = *r.depth_mm, D = r.distance_mm;
-    if (L > D / 2) return Problem{"--depth-mm", fmt::format("is {:g}, more than half of the way to the eye", L)};
     // The panel: square pixels, a = 25.4 mm/inch x diagonal / sqrt(columns^2 + rows^2)
     const double a = to_nanometre(25.4 * r.panel_inch / std::hypot(double(r.pixels[0]), double(r.pixels[1])));
     Display& d = o.display;
     d.panel.pixels = r.pixels;
     d.panel.pixel_pitch_mm = a;
-    const double width = double(r.pixels[0]) * a, height = double(r.pixels[1]) * a, longest = 50 * std::max(D, height);
+    const double width = double(r.pixels[0]) * a, height = double(r.pixels[1]) * a, D = r.distance_mm;
+    const double longest = 50 * std::max(D, height);  // beyond it the central depth plane is practically at infinity
+    if (!r.depth_mm) r.depth_mm = chosen_depth_mm(r, longest);
+    const double L = *r.depth_mm;
+    if (L > D / 2) return Problem{"--depth-mm", fmt::format("is {:g}, more than half of the way to the eye", L)};
     if (L < -longest) return Problem{"--depth-mm", fmt::format("is {:g}, which is practically infinity", L)};
     // The lens pitch, by rule or as requested
     o.near_eye = D < nearest_sight_mm;

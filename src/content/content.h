@@ -94,6 +94,8 @@ class ContentScene {
     /// Returns the centre of the model's box, from the panel's centre; of objects the reference point that content.depth_mm
     /// moves.
     Vec3d centre_mm() const { return {0, 0, vertex_plane_mm_ + depth_mm_}; }
+    /// Returns the files that the scene was read from: models, those that they name, and pictures; none of built-in ones.
+    const std::vector<std::string>& files() const;
     /// Returns how far the scene extends from there along x, y and z: half the extents of the model's box.
     Vec3d half_size_mm() const;
 

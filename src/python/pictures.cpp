@@ -193,12 +193,16 @@ nb::ndarray<nb::numpy, std::uint8_t> codes(const Display& display, const AnyPixe
     return nb::ndarray<nb::numpy, std::uint8_t>(data, {std::size_t(rows_of(light)), std::size_t(columns_of(light)), 3}, owner);
 }
 
+/// Returns the files that a model is read from: its own, and those that it names.
+std::vector<std::string> files_of_model(const std::string& path) { return info(*load_model(path)).files; }
+
 }  // namespace
 
 void add_pictures(nb::module_& m) {
     m.def("invert_pictures", invert_pictures, nb::arg("display"), nb::arg("targets"), nb::arg("eyes_mm"), nb::arg("threads"),
           nb::arg("progress").none());
     m.def("elemental_images", elemental_images, nb::arg("display"), nb::arg("threads"), nb::arg("progress").none());
+    m.def("files_of_model", files_of_model, nb::arg("path"));
     m.def("photograph", photograph, nb::arg("display"), nb::arg("crop").none(), nb::arg("threads"), nb::arg("progress").none());
     nb::class_<PreparedPanel>(m, "Panel");
     m.def("prepare", prepare, nb::arg("display"), nb::arg("pixels"), nb::arg("threads"), nb::arg("progress").none());

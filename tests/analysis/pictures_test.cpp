@@ -44,6 +44,21 @@ TEST(Components, DiffuserAloneBlursTheBoardAndBendsNothing) {
     EXPECT_EQ(wrong, 0);
 }
 
+TEST(Components, WithoutLensesThereAreNoErrorsOfTheirs) {
+    Display d = analysis_example::display(40, 60);
+    d.diffuser = Diffuser{1, {2, 2}};
+    const auto alone = [](const Display& display) {
+        Subject s = subject(display);
+        CountedSteps job;
+        return named(measure_components(s, job), "components-diffuser");
+    };
+    const Image without = alone(d);
+    d.errors.shift_mm = {0.5, 0};
+    d.errors.given = std::make_shared<const std::vector<GivenLensError>>(
+        std::vector<GivenLensError>{{0, 0, {{0.1, 0}}}, {3, 2, {{0, 0.1}}}});  // lens (3, 2) is beyond an array of one
+    EXPECT_EQ(alone(d).rgb, without.rgb);
+}
+
 TEST(Components, WithoutADiffuserThatPictureIsLeftOut) {
     Display d = analysis_example::display(40, 60);
     d.diffuser.reset();

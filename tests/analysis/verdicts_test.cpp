@@ -247,6 +247,18 @@ TEST(Verdicts, EyesAtTheEndsOfTheViewingZone) {
     EXPECT_THAT(verdicts_of(d), Contains(AllOf(HasSubstr("see nearly the same"), HasSubstr("zone is only 65.5 mm wide"))));
 }
 
+// In a narrower one each lens shows one of the eyes its neighbour's image, but near eyes look one by one.
+TEST(Verdicts, EyesThatDoNotFitIntoTheViewingZone) {
+    Display d = small_display();
+    d.camera.position_mm[2] = d.content.viewing_distance_mm = 45 * 4.2 / 1.44;
+    const auto narrow = Contains(HasSubstr("do not fit into the viewing zone: it is only 45 mm wide"));
+    EXPECT_THAT(verdicts_of(d), Not(narrow));  // at 131 mm
+    d.array.gap_mm = 2.2 * *d.array.gap_mm;
+    d.lens.kind = IdealLens{0.6, *d.array.gap_mm};
+    d.camera.position_mm[2] = d.content.viewing_distance_mm = 45 * *d.array.gap_mm / 1.44;
+    EXPECT_THAT(verdicts_of(d), narrow);
+}
+
 // Of third order: eight times the blur for twice the aperture; none of an ideal lens.
 TEST(Verdicts, SphericalAberration) {
     Display d = lens_examples::shipped("desktop-spherical");

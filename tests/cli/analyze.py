@@ -68,6 +68,19 @@ checks.that(all(after[name] == before[name] for name in before if name != "repor
 code, out, err = analyze(f"spot {QUICK} -o whole")
 checks.that(code == 0 and {"fov.json", "dof.json", "spot.json"} <= set(times("whole")), f"another measure of the same settings: {err}")
 
+# What the model's file names, and a table of lenses, count as much.
+(program.folder / "red.mtl").write_text("newmtl m\nKd 0.8 0.1 0.1\n")
+(program.folder / "named.obj").write_text("mtllib red.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
+(program.folder / "lenses.csv").write_text("i,j,dx_mm\n0,0,0.01\n")
+NAMED = "fov tiny.toml --progress none --angles-deg=-30,30,10 --model named.obj --set errors.table=lenses.csv -o named"
+for file, text in (("red.mtl", "newmtl m\nKd 0.1 0.1 0.8\n"), ("lenses.csv", "i,j,dx_mm\n0,0,0.03\n")):
+    code, out, err = analyze(NAMED + " --replace")
+    before = times("named")["fov.json"]
+    code, out, err = analyze(NAMED + " --resume")
+    checks.that(code == 0 and times("named")["fov.json"] == before, f"--resume measured again: {err}")
+    (program.folder / file).write_text(text)
+    checks.refused(program, f"another {file}", f"analyze {NAMED} --resume", "named: contains results of other settings: fov (files")
+
 # Results of other settings never lie beside: they are refused, or replaced.
 CHANGED = f"fov {QUICK} -o whole --set array.gap_mm=5.1"
 for resume in ["", " --resume"]:

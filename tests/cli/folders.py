@@ -49,6 +49,7 @@ for name in ("lens.json", "lens.svg"):
 program.must(EIA + " --mapping lens.npy --replace")
 checks.that("mine" not in (folder / "lens.json").read_text() + (folder / "lens.svg").read_text(), "--replace did not write over them")
 program.must(EIA + " --mapping lens.npy")  # its own of before: nothing is lost
+program.must(["eia", "tiny.toml", "-o", "named.png", "--mapping", b"z\xff.npy"])  # a name that is not UTF-8
 checks.refused(program, "the .json of another mapping", EIA + " --mapping lens.exr", "lens.json: exists")
 checks.refused(program, "--replace without --mapping", EIA + " --replace", "--replace: applies to the files beside that of --mapping")
 

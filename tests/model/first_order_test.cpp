@@ -68,6 +68,12 @@ TEST(FirstOrder, ResolutionOfLensesAndPixelsIsBalanced) {
     EXPECT_NEAR(lens / pixel, 1, 0.05);  // half a pixel of 21 is a fortieth
 }
 
+// A depth of its own choice is never what a design is refused for.
+TEST(FirstOrder, NearEyesHaveACentralDepthPlaneAtAMetreAtMost) {
+    EXPECT_EQ(*first_order({0.7, {1920, 1080}, 30, 20, {}}).request.depth_mm, -1000);
+    EXPECT_EQ(*first_order({0.7, {1920, 1080}, 25, 15, {}}).request.depth_mm, -750);
+}
+
 // The nearest possible value that a refusal names is possible, and near.
 TEST(FirstOrder, RefusalsNameAPossibleValue) {
     struct Case {

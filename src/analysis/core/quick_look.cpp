@@ -77,13 +77,17 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
     return SeenAtOnce{lfdsim::theory(d, g).along[axis].elemental_pitch_mm, {width, even_width(theory)}, through};
 }
 
+double viewing_zone_mm(const Display& d, const Geometry& g) {
+    if (line_of_eyes(g.lattice) == 1) return nan;
+    return (camera_distance_mm(d) - g.rear_principal_mm) * image_along_eyes_mm(d, g) / g.gap_mm;
+}
+
 std::optional<BetweenEyes> between_eyes(const Display& as_made, const Geometry& g) {
     Display d = as_made;
     d.content.viewing_distance_mm = camera_distance_mm(d);
     const std::optional<Vec3d> middle = eye_before(d, g);
-    if (!middle || line_of_eyes(g.lattice) == 1) return {};
-    const double distance = (*middle)[2], zone_mm = (distance - g.rear_principal_mm) * image_along_eyes_mm(d, g) / g.gap_mm;
-    if (!(zone_mm >= usual_eye_separation_mm)) return {};
+    if (!middle || !(viewing_zone_mm(d, g) >= usual_eye_separation_mm)) return {};
+    const double distance = (*middle)[2];
     const MeantPanel panel(d, g, d.content.sampling);
     const EyePaths paths(d, g);
     const MeantTheory paraxial(d, g);
@@ -94,7 +98,7 @@ std::optional<BetweenEyes> between_eyes(const Display& as_made, const Geometry& 
         const auto percent = [&](const MeantLight& light) { return crosstalk_of(light, leak_of_side(light, side)).percent.value; };
         const double traced = percent({paths.look(eye, lines, EyePaths::Counting::by_lens), paths.weights(), panel});
         if (std::isnan(traced) || (worse && traced <= worse->percent.traced)) continue;
-        worse = BetweenEyes{{traced, percent({paraxial.look(eye, lines), {luminance_weights}, panel})}, zone_mm};
+        worse = BetweenEyes{{traced, percent({paraxial.look(eye, lines), {luminance_weights}, panel})}};
     }
     return worse;
 }

@@ -28,10 +28,12 @@ struct SeenAtOnce {
 /// Returns that width; nothing if the camera is inside the display, or if too little light gets through.
 std::optional<SeenAtOnce> seen_at_once(const Display&, const Geometry&);
 
+/// Returns the width of the viewing zone at the camera's distance, E p'/g, mm; NaN where both eyes see the same.
+double viewing_zone_mm(const Display&, const Geometry&);
+
 /// The crosstalk of that eye of a viewer in front of the screen's middle, at the camera's distance, which has more of it.
 struct BetweenEyes {
     TracedAndTheory percent;  // infinite: the eye sees only what is intended for the other one
-    double zone_mm;           // the viewing zone's width there, E p'/g
 };
 /// Returns the crosstalk between the eyes as docs/measures.md, "Crosstalk", defines it, with elemental images made for that
 /// distance, by fewer lines of sight and only of those that meet a lens. Nothing if both eyes do not fit into the viewing zone, if

@@ -222,11 +222,17 @@ std::optional<std::string> on_errors(const Display& d, const BetweenEyes& mixed,
 
 /// Judges whether a viewer's eyes see different views.
 std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const SeenAtOnce& seen) {
+    const double eye = camera_distance_mm(d), apart = usual_eye_separation_mm, zone = viewing_zone_mm(d, g);
+    const std::string eyes = fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", apart, eye);
+    const std::string best = fmt::format(
+        "only {} mm wide there, and beyond it the lenses show their neighbours' images. Twice the eyes' distance would be best, as "
+        "from "
+        "{} mm on",
+        digits(zone), digits(eye * 2 * apart / zone));
+    if (zone < apart && eye >= nearest_sight_mm) return fmt::format("{} do not fit into the viewing zone: it is {}", eyes, best);
     const std::optional<BetweenEyes> mixed = between_eyes(d, g);
     if (!mixed || !(mixed->percent.traced > most_mended_percent)) return {};
     const auto [traced, in_theory] = mixed->percent;
-    const double eye = camera_distance_mm(d), apart = usual_eye_separation_mm;
-    const std::string eyes = fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", apart, eye);
     if (std::optional<std::string> errors = on_errors(d, *mixed, eyes)) return errors;
     if (by_aberration(mixed->percent))
         return fmt::format(
@@ -235,11 +241,7 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
     if (!(traced > most_mixed_percent)) return {};
     const std::string fault = fmt::format("{} see nearly the same: crosstalk is {}, as ", eyes, percent_text(traced));
     // In the middle of the halves of a viewing zone an eye is farthest from what is intended for the other one.
-    if (mixed->zone_mm < 2 * apart)
-        return fmt::format(
-            "{}the viewing zone is only {} mm wide there, and beyond it the lenses show their neighbours' images. Twice the eyes' "
-            "distance would be best, as from {} mm on",
-            fault, digits(mixed->zone_mm), digits(eye * 2 * apart / mixed->zone_mm));
+    if (zone < 2 * apart) return fmt::format("{}the viewing zone is {}", fault, best);
     // What an eye sees of the panel at once, in whole pixels, projected through the lens to the eye's distance
     const double wide = (seen.width_mm.traced + d.panel.pixel_pitch_mm) / g.gap_mm * (eye - g.rear_principal_mm);
     return fmt::format(

@@ -5,6 +5,7 @@
 #include "analysis/pictures/shown_content.h"
 #include "analysis/pictures/views.h"
 #include "display/keys.h"
+#include "geometry/lens_misalignment.h"
 #include "image/scaled.h"
 
 #include <fmt/format.h>
@@ -14,10 +15,10 @@
 namespace lfdsim {
 namespace {
 
-/// Returns the display without its lenses: one cell as large as the panel whose lens has hardly any power (its focal length is a
-/// kilometre), in the vertex plane.
+/// Returns the display without its lenses and their errors: one cell as large as the panel whose lens has hardly any power (its
+/// focal length is a kilometre), in the vertex plane.
 Display diffuser_alone(const Display& d, const Geometry& g) {
-    Display bare = d;
+    Display bare = without_errors(d);
     bare.lens = Lens{IdealLens{{}, longest_mm}, {}};
     bare.array = LensArray{};
     bare.array.count = {{1, 1}};

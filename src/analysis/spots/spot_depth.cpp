@@ -156,12 +156,19 @@ class Teller {
             found.missing = "no light of the panel's point on the axis gets through the lens";
             found.range = found.least = found.most = range_between(geometry_, nan, nan, eye_mm_);
         } else {
-            const std::array<double, 2> all = where_narrow(fan.all, pitch_mm);
+            // An end within a millionth of the pitch is the lenses' plane, from which rounding moves it.
+            const auto ends = [&](const std::vector<FanRay>& rays) {
+                std::array<double, 2> z = where_narrow(rays, pitch_mm);
+                for (double& end : z)
+                    if (std::abs(end) < 1e-6 * pitch_mm) end = 0;
+                return z;
+            };
+            const std::array<double, 2> all = ends(fan.all);
             std::array<double, 2> error{};
             for (std::size_t k = 0; k < 2; ++k)
                 if (std::isfinite(all[k])) error[k] = 1e-9 * std::abs(all[k]);
             for (const std::vector<FanRay>& third : fan.thirds) {
-                const std::array<double, 2> other = where_narrow(third, pitch_mm);
+                const std::array<double, 2> other = ends(third);
                 for (std::size_t k = 0; k < 2; ++k)
                     if (std::isfinite(all[k])) error[k] = std::max(error[k], 0.25 * std::abs(all[k] - other[k]));  // as in errors()
             }

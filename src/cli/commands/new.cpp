@@ -37,10 +37,11 @@ struct NewArguments {
         "--views", "N",
         "Panel pixels behind a lens along a row, in place of the rule for the pitch; strips with 2: one view for each eye");
     Option pitch_mm = command.option("--pitch-mm", "P", "Lens pitch, in place of --views; for strips across their axes");
-    Option depth_mm = command.option(
-        "--depth-mm", "L",
-        "Central depth plane, measured from the lenses towards the eye; default D/10, or -1000 for eyes nearer than 250 mm; "
-        "strips are focused on the panel");
+    Option depth_mm = command.option("--depth-mm", "L",
+                                     "Central depth plane, measured from the lenses towards the eye; default D/10, or for eyes "
+                                     "nearer than 250 mm -1000 or, if that "
+                                     "is nearer, about -50 D; "
+                                     "strips are focused on the panel");
     Option slant_deg = command.option("--slant-deg", "A",
                                       "Slant of strips from the vertical, positive where upper ends lean to the viewer's right; "
                                       "default 18.43, 1 in 3; 0 for two views");

@@ -49,13 +49,10 @@ struct RenderArguments {
 
 void render_frames(const RenderArguments& args, const Display& display, const CameraPath& path, const RenderOptions& options,
                    const std::function<PanelTexels()>& light, Progress& progress) {
-    const Json shown = shown_stamp(args.panel_image, args.pattern, display);
     PanelTexels panel;  // empty if no frame was left to render
-    const auto texels = [&]() -> const Texels& {
-        panel = light();
-        return panel.texels;
-    };
-    PathMade made = render_path({args.path, args.output, path, display, options, shown.dump()}, texels, progress);
+    const auto shown = [&]() -> const PanelTexels& { return panel = light(); };
+    PathMade made = render_path(
+        {args.path, args.output, path, display, options, shown_stamps(args.panel_image, args.pattern, display)}, shown, progress);
     const auto [columns, rows] = display.camera.resolution;
     made.more.update({{"frames", made.frames}, {"rendered", made.rendered}});
     made.more.update(panel.made);

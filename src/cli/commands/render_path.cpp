@@ -95,7 +95,7 @@ fs::path PathOptions::file(const OutputOptions& output, std::int64_t frame, std:
     return fs::path(output.path()) / fmt::format("{:0{}}.{}", frame, digits, kind_.text());
 }
 
-PathMade render_path(const PathWork& w, const std::function<const Texels&()>& panel, Progress& progress) {
+PathMade render_path(const PathWork& w, const std::function<const PanelTexels&()>& panel, Progress& progress) {
     // The frames that are left. Whether they can be written is checked before the panel's light is made.
     PathMade made;
     made.frames = w.path.frames();
@@ -116,7 +116,9 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
     if (left.empty()) return made;
 
     // The frames, each written as soon as it is rendered.
-    const SummedPanel summed(panel(), w.rendering.threads);
+    const PanelTexels& light = panel();
+    const SummedPanel summed(light.texels, w.rendering.threads);
+    const std::string shown = frames.shown_with(light.files);
     const auto [columns, rows] = w.display.camera.resolution;
     const std::optional<Rect>& crop = w.rendering.crop;
     progress.stage("rendering",
@@ -133,7 +135,7 @@ PathMade render_path(const PathWork& w, const std::function<const Texels&()>& pa
         if (!r.complete) return false;
         const fs::path file = w.options.file(w.output, left[i], made.frames);
         Rendered facts = rendered(r, w.rendering.target_error, keeps_layers(file));
-        facts.about["shown"] = w.shown;
+        facts.about["shown"] = shown;
         cut += w.output.save(file, r.image, Encoding::srgb, at_frame(w.path, left[i], w.display), std::move(facts.about),
                              std::move(facts.layers));
         ++made.rendered;

@@ -1,5 +1,6 @@
 // lfdsim render --path: one picture for each frame of a camera path. Floor 5.
 #pragma once
+#include "cli/options/shown_panel.h"
 #include "cli/output/output.h"
 #include "cli/program/command.h"
 #include "display/display.h"
@@ -46,7 +47,7 @@ struct PathWork {
     const CameraPath& path;
     const Display& display;
     const RenderOptions& rendering;
-    std::string shown;  // changes with the files of which the panel's light is made, as NumberedPictures::shown
+    Json shown;  // NumberedPictures::shown
 };
 
 /// The outcome of a path.
@@ -59,6 +60,6 @@ struct PathMade {
 
 /// Writes the frames, in order; finished ones stay, whatever happens to the rest. Calls `panel`, which gives the panel's light,
 /// only after it is certain that frames can be written and are left to be made. Throws InputError, and Interrupted after a signal.
-PathMade render_path(const PathWork&, const std::function<const Texels&()>& panel, Progress&);
+PathMade render_path(const PathWork&, const std::function<const PanelTexels&()>& panel, Progress&);
 
 }  // namespace lfdsim::cli

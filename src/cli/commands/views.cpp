@@ -216,6 +216,7 @@ class ViewsMaker {
         return scene_view_depth(*scene_, geometry_, grid_, column, row, making(), job);
     }
     const PanelTexels& light() const { return light_; }  // that views of the display show
+    const std::vector<std::string>& files() const { return scene_ ? scene_->files() : light_.files; }
 
   private:
     ViewMaking making() const {
@@ -272,6 +273,7 @@ Picture make_folder(ViewsMaker& maker, const ViewsArguments& args, const Display
     folder.check();
     const NumberedPictures& pictures = folder.pictures();
     const std::vector<std::int64_t> left = pictures.left();
+    const std::string shown = pictures.shown_with(maker.files());
     Picture all;
     CutOff cut;
     all.image.width = target.width;
@@ -287,7 +289,7 @@ Picture make_folder(ViewsMaker& maker, const ViewsArguments& args, const Display
             const Picture made = is_view ? maker.view(column, row, one) : maker.depth(column, row, one);
             if (!made.complete) folder.stop();
             cut += args.output.save(pictures.file(*next), made.image, is_view ? Encoding::srgb : Encoding::linear, display,
-                                    {{"shown", pictures.shown}});
+                                    {{"shown", shown}});
             if (is_view) add(all, made);
         }
     progress.end();
@@ -330,7 +332,7 @@ void run(const ViewsArguments& args) {
     if (args.of_display() && !args.panel_image.given()) require_panel_memory(display);
     ViewsMaker maker(args, display, geometry, grid, target, device);
     const ViewsFolder folder(args.output.path(), args.kind.text(), args.depth, grid, target.how, write_display(display),
-                             shown_stamp(args.panel_image, args.pattern, display).dump(), args.resume, args.replace);
+                             shown_stamps(args.panel_image, args.pattern, display), args.resume, args.replace);
     if (target.quilt)
         check_companion(beside_quilt(args), holds(beside_quilt(args), views_toml(grid, "", "", target.how)), args.replace);
     else

@@ -18,7 +18,8 @@ PanelTexels shown_panel(const PanelImageOption& image, const PatternOption& shap
         return {std::move(panel.texels), {{"panel_image", {{"incomplete", panel.incomplete}}}}};
     }
     if (shape.given()) return {shown_texels(pattern(shape.name(), display, geometry, pattern_options), display.panel.encoding)};
-    const auto [picture, inverse] = shown_content(display, geometry, load_scene(display, geometry), threads, progress);
+    const ContentScene scene = load_scene(display, geometry);
+    const auto [picture, inverse] = shown_content(display, geometry, scene, threads, progress);
     progress.end();
     if (!picture.complete) end_interrupted();
     std::string text;
@@ -31,11 +32,16 @@ PanelTexels shown_panel(const PanelImageOption& image, const PatternOption& shap
     CutOff cut;
     cut.add(picture.image);
     images.update(warn_of_cut_off("the panel's content", cut, less_light));
-    return {shown_texels(picture.image, display.panel.encoding), {{"elemental_images", std::move(images)}}, std::move(text)};
+    return {shown_texels(picture.image, display.panel.encoding),
+            {{"elemental_images", std::move(images)}},
+            std::move(text),
+            scene.files()};
 }
 
-Json shown_stamp(const PanelImageOption& image, const PatternOption& shape, const Display& display) {
-    return image.given() ? stamp(image.path()) : shape.given() ? stamp("") : content_stamp(display);
+Json shown_stamps(const PanelImageOption& image, const PatternOption& shape, const Display& display) {
+    std::vector<std::string> files = named_files(display, !image.given() && !shape.given());
+    if (image.given()) files.push_back(image.path());
+    return stamps(files);
 }
 
 }  // namespace lfdsim::cli

@@ -6,8 +6,9 @@ namespace lfdsim::cli {
 
 struct PanelTexels {
     Texels texels;
-    Json made = Json::object();  // how it was made, for --json
-    std::string text = {};       // what a reader should know of it: "; ..." or nothing
+    Json made = Json::object();           // how it was made, for --json
+    std::string text = {};                // what a reader should know of it: "; ..." or nothing
+    std::vector<std::string> files = {};  // that its models are and name
 };
 
 /// Returns the light of the image file, the pattern, or the elemental images of the display's model. Throws InputError, and
@@ -15,8 +16,8 @@ struct PanelTexels {
 PanelTexels shown_panel(const PanelImageOption&, const PatternOption&, const Display&, const Geometry&, const PatternOptions&,
                         int threads, Progress&);
 
-/// Returns a stamp (report/folder/run_settings.h) that changes with the panel's content: of the image's file, or of the files of
-/// the display's model.
-Json shown_stamp(const PanelImageOption&, const PatternOption&, const Display&);
+/// Returns the stamps (report/folder/run_settings.h) of the files that the command line and the description name, and of which
+/// pictures of the display are made.
+Json shown_stamps(const PanelImageOption&, const PatternOption&, const Display&);
 
 }  // namespace lfdsim::cli

@@ -189,8 +189,11 @@ void MappingOption::write(const Display& display, const Geometry& geometry, int 
         write_npy(path(), std::array<std::int64_t, 4>{std::int64_t(maps.size()), height, width, values_per_node}, values);
     else
         write_exr(path(), maps, values);
-    write_text(beside(path(), ".json"),
-               printable_lines(sidecar(display, geometry, maps, fs::path(path()).filename()).dump(2)) + "\n");
+    write_text(
+        beside(path(), ".json"),
+        printable_lines(
+            sidecar(display, geometry, maps, fs::path(path()).filename()).dump(2, ' ', false, Json::error_handler_t::replace)) +
+            "\n");
     write_text(beside(path(), ".svg"), svg(plot_of(maps, geometry, strips, display.name)));
 }
 

@@ -1,5 +1,7 @@
 // A folder of numbered pictures, which one command makes one after the other and can continue after an interruption. Floor 5.
 #pragma once
+#include "report/folder/run_settings.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -9,18 +11,20 @@
 namespace lfdsim::cli {
 
 /// Numbered pictures of one command, which can be distinguished from those of any other: the metadata of each have the program's
-/// version, the command, the description, and "shown", the stamp of its content.
+/// version, the command, the description, and "shown", the stamps of the files that it was made of.
 struct NumberedPictures {
     std::filesystem::path folder;
     std::int64_t count = 0;
     std::function<std::string(std::int64_t)> name;            // of a picture's file, with its ending
     std::function<std::string(std::int64_t)> display;         // the description of which a picture is made
-    std::string shown;                                        // changes with the files of which the pictures are made
+    Json shown;                                               // stamps of the files of which they are known to be made
     std::function<bool(const std::filesystem::path&)> alike;  // whether a file is named like these pictures
     std::string of_what;                                      // a picture in messages: "frame"
     bool resume = false, replace = false;                     // --resume, --replace
 
     std::filesystem::path file(std::int64_t n) const { return folder / name(n); }
+    /// Returns "shown" of a picture, with the stamps of files that were found only when the content was read.
+    std::string shown_with(const std::vector<std::string>& files) const;
     /// Whether a picture exists that the same command has made of the same display and content.
     bool finished(std::int64_t n) const;
     std::int64_t count_finished() const;

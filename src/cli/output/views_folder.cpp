@@ -26,7 +26,7 @@ bool named_as_view(const fs::path& file) {
 }  // namespace
 
 ViewsFolder::ViewsFolder(fs::path folder, const std::string& kind, bool depth, const ViewGrid& grid, const std::string& how,
-                         std::string description, std::string shown, bool resume, bool replace) {
+                         std::string description, Json shown, bool resume, bool replace) {
     const std::string depth_kind = kind == "npy" ? "npy" : "exr";
     const std::int64_t of_each = depth ? 2 : 1;
     toml_ = views_toml(grid, "view_*." + kind, depth ? fmt::format("depth_*.{}", depth_kind) : "", how);

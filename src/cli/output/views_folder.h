@@ -11,7 +11,7 @@ class ViewsFolder {
   public:
     /// `kind` is "png", "exr" or "npy", `how` that of views_toml(); `description` and `shown` are those of NumberedPictures.
     ViewsFolder(std::filesystem::path folder, const std::string& kind, bool depth, const ViewGrid&, const std::string& how,
-                std::string description, std::string shown, bool resume, bool replace);
+                std::string description, Json shown, bool resume, bool replace);
     ViewsFolder(const ViewsFolder&) = delete;
 
     /// Throws InputError if the folder has files that would be mixed with these views, or lost.

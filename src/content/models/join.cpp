@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 namespace lfdsim {
@@ -45,6 +46,7 @@ class Joining {
         const Model& from = object.shading == Shading::file ? read : own;
         add_surfaces(from, object);
         add_materials(read, object);
+        add_files(read);
         add_vertices(from, object, number);
     }
     std::shared_ptr<const Model> model() { return std::make_shared<Model>(std::move(all_)); }
@@ -77,6 +79,11 @@ class Joining {
             if (material.texture >= 0) material.texture += first->second;
             all_.materials.push_back(material);
         }
+    }
+
+    void add_files(const Model& read) {
+        for (const std::string& file : read.files)
+            if (std::find(all_.files.begin(), all_.files.end(), file) == all_.files.end()) all_.files.push_back(file);
     }
 
     // Adds rotated, scaled and moved vertices: k (R p - m) + position, m the middle of the rotated box.

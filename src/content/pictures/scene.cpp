@@ -204,6 +204,8 @@ ContentScene::ContentScene(const ContentParts& parts, const Display& display, co
     impl_ = made;
 }
 
+const std::vector<std::string>& ContentScene::files() const { return impl_->model->files; }
+
 Vec3d ContentScene::half_size_mm() const { return impl_->half_mm; }
 
 ContentScene ContentScene::before(const Geometry& geometry) const {

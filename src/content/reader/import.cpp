@@ -170,8 +170,6 @@ class Conversion {
     // Adds the triangles of a mesh.
     void add(const aiMesh& mesh) {
         if (!(mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || !mesh.mVertices) return;
-        if (mesh.mMaterialIndex >= scene_.mNumMaterials)
-            throw std::runtime_error("a mesh refers to a material that does not exist");
         Attributes of{0, coloured(mesh), {}};
         if (const auto tiling = tilings_.find(scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()); tiling != tilings_.end())
             of.tiling = tiling->second;
@@ -186,9 +184,6 @@ class Conversion {
                 ++dropped_;
                 continue;
             }
-            for (int k = 0; k < 3; ++k)
-                if (face.mIndices[k] >= mesh.mNumVertices)
-                    throw std::runtime_error("a face refers to a vertex that does not exist");
             if (mesh.mNormals)
                 for (int k = 0; k < 3; ++k) model_.indices.push_back(std::uint32_t(first + face.mIndices[k]));
             else
@@ -246,29 +241,6 @@ class Conversion {
     std::int64_t dropped_ = 0;
     bool transparent_ = false, out_of_range_ = false;
 };
-
-// Replaces normals that are missing or broken (of a length not between 1/2 and 2) by those of faces: they would leave holes in
-// the shading.
-void mend_normals(Model& model) {
-    const auto bad = [&](std::uint32_t v) {
-        const float* n = &model.normals[3 * std::size_t(v)];
-        const float square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-        return !(square > 0.25f && square < 4.f);
-    };
-    for (std::size_t t = 0; t < model.indices.size(); t += 3) {
-        const std::uint32_t* corner = &model.indices[t];
-        if (!bad(corner[0]) && !bad(corner[1]) && !bad(corner[2])) continue;
-        aiVector3D p[3];
-        for (int k = 0; k < 3; ++k) {
-            const float* at = &model.positions[3 * std::size_t(corner[k])];
-            p[k] = {at[0], at[1], at[2]};
-        }
-        const aiVector3D face = ((p[1] - p[0]) ^ (p[2] - p[0])).NormalizeSafe();
-        for (int k = 0; k < 3; ++k) {
-            if (bad(corner[k])) std::copy_n(&face.x, 3, &model.normals[3 * std::size_t(corner[k])]);
-        }
-    }
-}
 
 // Notes animations, skins, morph targets, points and lines (which faces of fewer than three corners are), which are not shown.
 void note_deformations(const aiScene& scene, NotShown& not_shown) {
@@ -364,12 +336,15 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     const bool is_3mf = format.starts_with("3mf");
     if (scene && scene->mRootNode) {
         auto& loaded = const_cast<aiScene&>(*scene);  // owned by the importer
+        check_references(loaded);
         repair(loaded, file, format);
         note_deformations(loaded, not_shown);
         if (is_3mf) note_3mf(file, not_shown);
+        const bool smoothed = !flat_without_normals(file, format);
+        if (smoothed) separate_corners(loaded);
         exponent += fit_to_floats(loaded, not_shown);
         scene = importer.ApplyPostProcessing(steps | (may_join(loaded, format) ? aiProcess_JoinIdenticalVertices : 0u) |
-                                             (flat_without_normals(file, format) ? 0u : aiProcess_GenSmoothNormals));
+                                             (smoothed ? aiProcess_GenSmoothNormals : 0u));
     }
     if (!scene) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
@@ -377,8 +352,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     }
     // A face without a valid vertex means a damaged file: Assimp would leave it out and continue.
     for (const std::string& warning : warnings->texts)
-        if (warning.find("out-of-range ind") != std::string::npos)
-            throw std::runtime_error("some faces have indices of vertices that do not exist; the file is damaged, export it again");
+        if (warning.find("out-of-range ind") != std::string::npos) throw std::runtime_error(missing_vertices);
     Model model = Conversion(*scene, *folder, format, turn(*scene, format, up), tilings, not_shown).run();
     // Blender's loader warns of every field that a version of the program did not have, 3MF's of every file of the archive.
     if (!format.starts_with("Blender") && !is_3mf)

@@ -2,9 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
+#include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace lfdsim::reader {
 namespace {
@@ -35,6 +39,42 @@ void drop_normals(aiScene& scene) {
     }
 }
 
+// Replaces a list with an entry for each vertex by one with an entry for each corner, of the vertex corners[i]. Null: there is
+// none.
+template <class T>
+void spread(T*& list, const std::vector<unsigned>& corners) {
+    if (!list) return;
+    auto of_corners = std::make_unique<T[]>(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) of_corners[i] = list[corners[i]];
+    delete[] list;
+    list = of_corners.release();
+}
+
+template <class T>
+void remove_all(T**& items, unsigned& count) {
+    for (unsigned i = 0; i < count; ++i) delete items[i];
+    delete[] items;
+    items = nullptr;
+    count = 0;
+}
+
+void separate_corners_of(aiMesh& mesh) {
+    std::vector<unsigned> corners;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+        corners.insert(corners.end(), mesh.mFaces[f].mIndices, mesh.mFaces[f].mIndices + mesh.mFaces[f].mNumIndices);
+    spread(mesh.mVertices, corners);
+    spread(mesh.mTangents, corners);
+    spread(mesh.mBitangents, corners);
+    for (auto& coordinates : mesh.mTextureCoords) spread(coordinates, corners);
+    for (auto& colours : mesh.mColors) spread(colours, corners);
+    remove_all(mesh.mBones, mesh.mNumBones);
+    remove_all(mesh.mAnimMeshes, mesh.mNumAnimMeshes);
+    mesh.mNumVertices = unsigned(corners.size());
+    unsigned next = 0;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+        for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k) mesh.mFaces[f].mIndices[k] = next++;
+}
+
 }  // namespace
 
 bool flat_without_normals(const std::filesystem::path& file, const std::string& format) {
@@ -55,6 +95,51 @@ bool flat_without_normals(const std::filesystem::path& file, const std::string& 
 void repair(aiScene& scene, const std::filesystem::path& file, const std::string& format) {
     if (format == "glTF Importer") place_gltf1_nodes(scene, file);
     if (format.starts_with("Blender")) drop_normals(scene);
+}
+
+void mend_normals(Model& model) {
+    const auto bad = [&](std::uint32_t v) {
+        const float* n = &model.normals[3 * std::size_t(v)];
+        const float square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        return !(square > 0.25f && square < 4.f);
+    };
+    const auto append = [](std::vector<float>& list, std::uint32_t v, std::size_t size) {
+        for (std::size_t c = 0; c < size && !list.empty(); ++c) list.push_back(list[std::size_t(v) * size + c]);
+    };
+    for (std::size_t t = 0; t < model.indices.size(); t += 3) {
+        std::uint32_t* const corner = &model.indices[t];
+        aiVector3D p[3];
+        for (int k = 0; k < 3; ++k) {
+            const float* at = &model.positions[3 * std::size_t(corner[k])];
+            p[k] = {at[0], at[1], at[2]};
+        }
+        const aiVector3D face = ((p[1] - p[0]) ^ (p[2] - p[0])).NormalizeSafe();
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t v = corner[k];
+            if (!bad(v)) continue;
+            corner[k] = std::uint32_t(model.vertices());
+            append(model.positions, v, 3);
+            append(model.uvs, v, 2);
+            append(model.colours, v, 3);
+            model.normals.insert(model.normals.end(), {face.x, face.y, face.z});
+        }
+    }
+}
+
+void check_references(const aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        if (mesh.mMaterialIndex >= scene.mNumMaterials)
+            throw std::runtime_error("a mesh refers to a material that does not exist; the file is damaged, export it again");
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+            for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
+                if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices) throw std::runtime_error(missing_vertices);
+    }
+}
+
+void separate_corners(aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        if (!scene.mMeshes[m]->HasNormals() && scene.mMeshes[m]->HasFaces()) separate_corners_of(*scene.mMeshes[m]);
 }
 
 }  // namespace lfdsim::reader

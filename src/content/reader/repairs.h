@@ -1,5 +1,7 @@
-// Known faults of Assimp 5.2's loaders, corrected in the scene as loaded, before post-processing.
+// Known faults of Assimp 5.2's loaders, corrected in the scene as loaded, before post-processing; and what its steps assume.
 #pragma once
+#include "content/models/model.h"
+
 #include <assimp/scene.h>
 
 #include <filesystem>
@@ -13,5 +15,21 @@ void repair(aiScene& scene, const std::filesystem::path& file, const std::string
 /// Returns whether a file's faces are flat if it has no normals: by specification of glTF 2.0; of OBJ if the file says so ("s
 /// off", no smoothing group), which Assimp ignores.
 bool flat_without_normals(const std::filesystem::path& file, const std::string& format);
+
+/// The refusal of files whose faces have indices out of range.
+inline constexpr const char* missing_vertices =
+    "some faces have indices of vertices that do not exist; the file is damaged, export it again";
+
+/// Throws std::runtime_error if a mesh as loaded refers to a material, or a face to a vertex, that does not exist: Assimp's steps
+/// leave such meshes out, and read beyond the end of the vertices.
+void check_references(const aiScene& scene);
+
+/// Gives each corner of a face a vertex of its own in meshes without normals. Assimp's smoothing takes that for granted: a vertex
+/// that faces share would have the normal of the last of them. Poses of bones and morph targets, which name vertices, are removed.
+void separate_corners(aiScene& scene);
+
+/// Gives corners whose normal is missing or broken (of a length not between 1/2 and 2), which would leave holes in the shading, a
+/// vertex of their own with the face's normal.
+void mend_normals(Model& model);
 
 }  // namespace lfdsim::reader

@@ -6,6 +6,7 @@
 #include "image/formats/file.h"
 #include "image/formats/image_file.h"
 #include "image/scaled.h"
+#include "report/folder/run_settings.h"
 #include "report/plots/svg.h"
 
 #include <fmt/format.h>
@@ -85,7 +86,7 @@ Json ResultFolder::read(const Measure& measure) const {
 }
 
 bool ResultFolder::has(const Measure& measure) const {
-    if (settings_of(measure) != settings_) return false;
+    if (const Json theirs = settings_of(measure); !theirs.is_object() || !different_settings(theirs).empty()) return false;
     try {
         const Json json = read(measure);
         for (const Json& file : json.at("report").at("files")) {
@@ -96,6 +97,15 @@ bool ResultFolder::has(const Measure& measure) const {
     } catch (const std::exception&) {
         return false;  // cut off or changed by hand: it is measured again
     }
+}
+
+// The files of a result may be fewer than those of this run, since a measure without content reads no model: they must be as they
+// were.
+std::vector<std::string> ResultFolder::different_settings(const Json& theirs) const {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : settings_.items())
+        if (key == "files" ? !hold(theirs.value(key, Json::array())) : theirs.value(key, Json()) != value) keys.push_back(key);
+    return keys;
 }
 
 /// Returns the settings of a measure's result; null if there is no result.
@@ -113,11 +123,9 @@ std::vector<std::string> ResultFolder::others() const {
     std::vector<std::string> all;
     for (const Measure& m : measures()) {
         const Json theirs = settings_of(m);
-        if (!theirs.is_object() || theirs == settings_) continue;
-        std::vector<std::string> keys;
-        for (const auto& [key, value] : settings_.items())
-            if (theirs.value(key, Json()) != value) keys.push_back(key);
-        all.push_back(fmt::format("{} ({})", m.name, fmt::join(keys, ", ")));
+        if (!theirs.is_object()) continue;
+        if (const std::vector<std::string> keys = different_settings(theirs); !keys.empty())
+            all.push_back(fmt::format("{} ({})", m.name, fmt::join(keys, ", ")));
     }
     return all;
 }
@@ -126,7 +134,7 @@ void ResultFolder::remove_others() const {
     bool any = false;
     for (const Measure& m : measures()) {
         const Json theirs = settings_of(m);
-        if (!theirs.is_object() || theirs == settings_) continue;
+        if (!theirs.is_object() || different_settings(theirs).empty()) continue;
         any = true;
         std::vector<std::string> names{std::string(m.name) + ".json"};  // first: a measure without it is incomplete
         try {

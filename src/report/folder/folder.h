@@ -47,6 +47,8 @@ class ResultFolder {
 
   private:
     Json settings_of(const Measure&) const;
+    /// Returns the keys whose values differ from this run's settings; "files" if one of a result's files has changed.
+    std::vector<std::string> different_settings(const Json& theirs) const;
     bool wrote(const Measure&, const std::filesystem::path& name) const;
 
     std::filesystem::path path_;

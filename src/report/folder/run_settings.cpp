@@ -1,6 +1,7 @@
 #include "report/folder/run_settings.h"
 
 #include "analysis/core/figure_json.h"
+#include "display/keys.h"
 #include "files/description/display_file.h"
 
 #include <fmt/chrono.h>
@@ -37,6 +38,28 @@ Json content_stamp(const Display& display) {
     return all;
 }
 
+std::vector<std::string> named_files(Display display, bool content) {
+    std::vector<std::string> files;
+    visit_files(display, [&](const std::string& key, const std::string& file) {
+        if (!file.empty() && (content || !key.starts_with("content."))) files.push_back(file);
+    });
+    return files;
+}
+
+Json stamps(const std::vector<std::string>& files) {
+    Json all = Json::array();
+    for (const std::string& file : files)
+        if (Json one = stamp(file); std::find(all.begin(), all.end(), one) == all.end()) all.push_back(std::move(one));
+    return all;
+}
+
+bool hold(const Json& stamps) {
+    return stamps.is_array() && std::all_of(stamps.begin(), stamps.end(), [](const Json& one) {
+               return one.is_object() && one.contains("file") && one["file"].is_string() &&
+                      one == stamp(one["file"].get<std::string>());
+           });
+}
+
 namespace {
 
 /// Returns evenly spaced values as first, last and count; others as a list; null where there are none.
@@ -52,9 +75,12 @@ Json series_json(const std::vector<double>& values) {
 
 Json run_settings(const Subject& subject, const std::string& version) {
     const AnalysisOptions& options = subject.options();
+    std::vector<std::string> files = named_files(subject.display(), true);
+    if (subject.has_scene()) files.insert(files.end(), subject.scene().files().begin(), subject.scene().files().end());
     return {{"lfdsim", version},
             {"display", write_display(subject.display())},
             {"model", content_stamp(subject.display())},
+            {"files", stamps(files)},
             {"angles_deg", series_json(options.angles_deg)},
             {"depths_mm", series_json(options.depths_mm)},
             {"viewing_distance_mm", subject.viewing_distance_mm()},

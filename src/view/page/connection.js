@@ -60,14 +60,12 @@ export class Connection {
     if (this.is_open) this.socket.send(JSON.stringify(message));
     return this.is_open;
   }
-  /// Resolves to the answer; rejected when the connection is lost or no answer comes within a minute.
+  /// Resolves to the answer, however long that takes: plots of large displays take minutes. Rejected when the connection is lost.
   ask(what, more = {}) {
     const id = ++this.last_ask;
     return new Promise((resolve, reject) => {
       if (!this.send({ type: "ask", id, what, ...more })) return reject(new Error("no connection to the program"));
-      const late = setTimeout(() => this.asked.delete(id) && reject(new Error("no answer")), 60000);
-      const end = (how) => (value) => (clearTimeout(late), how(value));
-      this.asked.set(id, { resolve: end(resolve), reject: end(reject) });
+      this.asked.set(id, { resolve, reject });
     });
   }
 }
