@@ -116,7 +116,7 @@ def tolerance(
     changes = dict(set or {})
     described = work.changed(planned.display_in(display, changes)[1], display.parent, changes)
     alone = max(10, draws * 3 // 10) if alone is None else alone
-    layout = Layout(errors.sizes_of(described, display), draws, alone, table=str(described["errors.table"]))
+    layout = Layout(errors.sizes_of(described, display), draws, alone, table=described["errors.table"] or "")
     if layout.rows > MOST_ROWS:
         many = f"{draws} and {layout.alone} of each error alone are {layout.rows} rows"
         raise StudyError("draws", f"{many}; at most {MOST_ROWS} are possible")
