@@ -211,7 +211,7 @@ def _tolerance(a: argparse.Namespace) -> int:
     )
     from .reports import tolerance_page
 
-    for line in tolerance_page.summary(found):
+    for line in tolerance_page.summary(found, a.percent):
         print(line)
     print(f"{tolerance_page.write(found, a.percent)}: the report, with all figures")
     return 0
