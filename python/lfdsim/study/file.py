@@ -130,9 +130,10 @@ def _factor(table: Table) -> Factor:
         low, high, count = table.number("from"), table.number("to"), table.integer("steps", low=2, high=1_000_000)
         if low == high:
             raise table.wrong("to", f"is {high}, as from is; give another end, or values = [{high}]")
-        factor = Factor(keys, tuple(tuple(x * by if by != 1 else x for by in times) for x in factors.steps(low, high, count)))
+        levels = tuple(tuple(x * by if by != 1 else x for by in times) for x in factors.steps(low, high, count))
+        factor = Factor(keys, levels, kind="from")
     else:
-        factor = Factor(keys, (), _distribution(table.table(kinds[0]), kinds[0]), times)
+        factor = Factor(keys, (), _distribution(table.table(kinds[0]), kinds[0]), times, kinds[0])
     table.end()
     return factor
 

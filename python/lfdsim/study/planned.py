@@ -16,7 +16,7 @@ import pyarrow.parquet as pq
 
 import lfdsim
 
-from . import columns, design, files, work
+from . import checks, columns, design, files, work
 from .file import Study, read_study
 from .problems import StudyError, listed, path_of
 
@@ -114,7 +114,10 @@ def _make(study: Study, folder: pathlib.Path) -> Plan:
     work.check_measures(study)
     keys = _replicate_keys(study, display_text)
     rows = design.rows_of(study, keys)
-    _check_keys(study, display, [k for k in rows if k != "replicate"])
+    changed = [k for k in rows if k != "replicate"]
+    checks.check_keys(study, display, changed)
+    checks.check_effects(study, changed)
+    rows = checks.whole_numbers(study, display, rows)
     work.check_settings(study, _possible(study, display, rows), study.display_path.parent)
     table = columns.arrow_of(rows)
     per_chunk = study.rows_per_chunk or math.ceil(math.sqrt(len(table)) / 4)
@@ -248,16 +251,6 @@ def _possible(study: Study, display: "lfdsim.Display", rows: design.Columns) -> 
         except (TypeError, ValueError):  # which will be the row's reason
             continue
     return found
-
-
-def _check_keys(study: Study, display: "lfdsim.Display", keys: list[str]) -> None:
-    """A key that no display has would fail in every row."""
-    for key in keys:
-        stem, _, last = key.rpartition(".")
-        try:
-            display[stem if last.isdigit() else key]
-        except (KeyError, ValueError) as error:
-            raise StudyError(f"{study.table or study.path}: {key}", f"is not a key of the display: {error}") from error
 
 
 def _replicate_keys(study: Study, display_text: str) -> tuple[str, ...]:
