@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import sys
 import warnings
 from typing import Any, Union
 
@@ -12,11 +13,14 @@ from numpy.typing import NDArray
 
 from lfdsim import _core
 from lfdsim.display import Display
-from lfdsim.errors import DisplayError, InputError, LfdsimWarning
+from lfdsim.errors import DisplayError, InputError, LfdsimWarning, in_python
 from lfdsim.texts import text
 
 Corners = tuple[int, int, int, int]
 Model = Union[str, "os.PathLike[str]", None]
+
+LIT = 0.01  # of a picture's values: fewer that are not 0 are specks
+_PACKAGE = os.path.dirname(__file__) + os.sep
 
 
 def display_of(display: Any) -> Display:
@@ -82,6 +86,8 @@ def pixels(
         made = np.ascontiguousarray(given, dtype=given.dtype.newbyteorder("=") if codes else np.float32)
     if not codes:
         _warn_above(made, name, white, shown)
+    elif made.dtype.itemsize == 2:
+        _warn_dark(made, name)
     return made
 
 
@@ -99,7 +105,15 @@ def _warn_above(light: NDArray[np.float32], name: str, white: float, shown: str)
         if integers or greatest > 16
         else "divide by the greatest value"
     )
-    warnings.warn(f"{name} holds light of up to {greatest:.6g}, and white is 1: {shown}; {remedy}", LfdsimWarning, stacklevel=4)
+    warn([f"{name} holds light of up to {greatest:.6g}, and white is 1: {shown}; {remedy}"])
+
+
+def _warn_dark(codes: NDArray[Any], name: str) -> None:
+    """Of codes of 16 bits that are those of 8: not of black, nor of a few specks in it."""
+    greatest = int(codes.max())
+    if 1 < greatest <= 255 and np.count_nonzero(codes) > LIT * codes.size:
+        remedy = f"if these are codes of 0 to 255, give {name}.astype(numpy.uint8)"
+        warn([f"{name} holds codes of up to {greatest}, and white is 65535: it is nearly black; {remedy}"])
 
 
 def whole(value: Any, name: str, low: int, high: int) -> int:
@@ -172,6 +186,19 @@ def corners(crop: Any, width: int, height: int) -> Corners | None:
     return x0, y0, x1, y1
 
 
+def points(places: Any, name: str) -> list[tuple[float, float, float]]:
+    try:
+        given = list(places)
+    except TypeError:
+        raise TypeError(f"{name} is {places!r}; give (x, y, z) of each") from None
+    found = [numbers(place, 3, f"{name}[{k}]") for k, place in enumerate(given)]
+    return [(x, y, z) for x, y, z in found]
+
+
 def warn(notes: list[str]) -> None:
+    """Warnings point to the line that called this package."""
+    frame, level = sys._getframe(), 1
+    while frame.f_back and frame.f_code.co_filename.startswith(_PACKAGE):
+        frame, level = frame.f_back, level + 1
     for note in notes:
-        warnings.warn(note, LfdsimWarning, stacklevel=3)
+        warnings.warn(in_python(note), LfdsimWarning, stacklevel=level)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import html
 import os
+import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from lfdsim import _core
-from lfdsim.errors import UnknownKeyError
+from lfdsim.errors import DisplayError, UnknownKeyError
 from lfdsim.texts import path_text, text as text_of
 from lfdsim.toml_text import toml_text
 
@@ -47,7 +48,8 @@ class Display:
         return cls._of(_core.Display.parse(text_of(text, "text"), place, _overrides(changes or {})))
 
     def with_(self, changes: Mapping[str, Any]) -> Display:
-        """The display with keys changed: {"array.gap_mm": 3.3, "diffuser": None}; None removes a key or table."""
+        """The display with keys changed: {"array.gap_mm": 3.3, "diffuser": None}; None removes a key or table. A table is replaced as a
+        whole: in its dict, too, None is a key that is absent, so that one that was read can be put back."""
         overrides = _overrides(changes)
         return Display._of(self._handle.changed(overrides)) if overrides else self
 
@@ -92,7 +94,11 @@ class Display:
 
     def _all(self) -> dict[str, Any]:
         if self._values is None:
-            self._values = self._handle.values()
+            # A name of a file, or the display's own, that is absent is an empty text in a description.
+            self._values = {key: None if value == "" else value for key, value in self._handle.values().items()}
+            if glasses := [key for key, value in self._values.items() if key.endswith(".glass") and value is not None]:
+                written = tomllib.loads(repr(self))  # with all that a table of a glass says
+                self._values |= {key: _glass_at(key, written) for key in glasses}
         return self._values
 
     def __repr__(self) -> str:
@@ -128,12 +134,24 @@ def _override(key: Any, value: Any) -> str:
     if value is not None:
         try:
             return f"{key}={toml_text(value)}"
+        except OverflowError as error:
+            raise DisplayError([(f"{key}={value}", f"{key}: {error}")]) from None
         except (TypeError, ValueError) as error:
             raise type(error)(f"{key}: {error}") from None
     if not _core.known(key):
         raise _unknown(key)
     default = _core.default_word(key)
     return f"{key}=none" if default is None else f"{key}={toml_text(default)}"
+
+
+def _glass_at(key: str, description: dict[str, Any]) -> Any:
+    """A name, or a table whose lists are tuples, as of other keys."""
+    glass: Any = description
+    for part in key.split("."):
+        glass = glass[int(part) if part.isdigit() else part]
+    if isinstance(glass, str):
+        return glass
+    return {k: tuple(map(float, v)) if isinstance(v, list) else v if isinstance(v, str) else float(v) for k, v in glass.items()}
 
 
 def _tree(values: Mapping[str, Any]) -> Any:

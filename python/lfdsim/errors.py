@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import NamedTuple
 
 _OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*[a-z])")
+_KEYS_OF_OPTIONS = {"eyes-mm": "content.inverse.eyes_mm"}  # that no argument stands for
 _KEY = re.compile(r"[a-z_]+(\.[a-z_0-9]+)*(\[\d+\])*\Z")
 
 
@@ -22,10 +24,15 @@ class Problem(NamedTuple):
         return self.what if named else f"{self.where}: {self.what}"
 
 
+def in_python(text: str) -> str:
+    """A message of the program, whose options are arguments in Python: --eye-distance-mm is eye_distance_mm."""
+    return _OPTION.sub(lambda option: _KEYS_OF_OPTIONS.get(option[1], option[1].replace("-", "_")), text)
+
+
 def _problem(where: str, what: str) -> Problem:
-    """The problem that a message of the program states; its options are arguments in Python: --eye-distance-mm is eye_distance_mm."""
+    """The problem that a message of the program states."""
     where = "measure" if where == "MEASURE" else where.removeprefix("--set ")
-    where, what = (_OPTION.sub(lambda option: option[1].replace("-", "_"), text) for text in (where, what))
+    where, what = in_python(where), in_python(what)
     key, colon, rest = what.partition(": ")
     if not colon or not _KEY.match(key):
         key, rest = where.partition("=")[0], what
@@ -49,6 +56,10 @@ class InputError(ValueError):
     @property
     def remedy(self) -> str:
         return self.problems[0].remedy if self.problems else ""
+
+    def of_arguments(self, names: Mapping[str, str]) -> InputError:
+        """The same error with other places: of the arguments that the user gave."""
+        return type(self)([(names.get(problem.where, problem.where), problem.what) for problem in self.problems])
 
     def __reduce__(self) -> tuple[type[InputError], tuple[list[tuple[str, str]]]]:
         return type(self), ([problem[:2] for problem in self.problems],)

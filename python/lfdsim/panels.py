@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from lfdsim import _core
 from lfdsim.arguments import display_of, number, numbers, pixels, threads_of, whole
 from lfdsim.display import Display
+from lfdsim.errors import InputError
 from lfdsim.texts import text
 
 
@@ -51,9 +52,11 @@ def pattern(
     """
     place = numbers(view, 2, "view")
     cell = whole(cell_pixels, "cell_pixels", 1, 2**30)
-    return _core.pattern(
-        display_of(display)._handle, text(name, "name"), cell, (place[0], place[1]), number(edge_deg, "edge_deg"), number(depth_mm, "depth_mm")
-    )
+    edge, depth = number(edge_deg, "edge_deg"), number(depth_mm, "depth_mm")
+    try:
+        return _core.pattern(display_of(display)._handle, text(name, "name"), cell, (place[0], place[1]), edge, depth)
+    except InputError as error:
+        raise error.of_arguments({"view_x": "view[0]", "view_y": "view[1]"}) from None
 
 
 def panel_codes(display: Display, panel: ArrayLike) -> NDArray[np.uint8]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lfdsim import _core
-from lfdsim.arguments import Corners, Model, corners, encoding_of, pixels, seen, threads_of, warn
+from lfdsim.arguments import Corners, Model, corners, encoding_of, pixels, points, seen, threads_of, warn
 from lfdsim.display import Display
 from lfdsim.errors import InputError
 from lfdsim.panels import Panel, panel_of
@@ -93,15 +93,16 @@ def elemental_images(
         raise InputError([("targets, target_eyes_mm", "belong together; give a picture and a place for each eye")])
     if targets is not None and (model is not None or made_for["content.pickup"] != "inverse"):
         raise InputError([("targets", 'are what pickup="inverse" shows in place of a model; give that pickup, and no model')])
+    pictures = [pixels(target, f"targets[{k}]") for k, target in enumerate(() if targets is None else targets)]
+    eyes = points(() if target_eyes_mm is None else target_eyes_mm, "target_eyes_mm")
     with shown(progress) as report:
-        if targets is not None:
-            pictures = [pixels(target, f"targets[{k}]") for k, target in enumerate(targets)]
-            eyes = [tuple(float(x) for x in eye) for eye in ([] if target_eyes_mm is None else target_eyes_mm)]
-            if wrong := [eye for eye in eyes if len(eye) != 3]:
-                raise InputError([("target_eyes_mm", f"has the place {wrong[0]}; give (x, y, z) for each eye")])
-            image, notes = _core.invert_pictures(made_for._handle, pictures, eyes, threads_of(threads), report)
-        else:
+        if targets is None:
             image, notes = _core.elemental_images(made_for._handle, threads_of(threads), report)
+        else:
+            try:
+                image, notes = _core.invert_pictures(made_for._handle, pictures, eyes, threads_of(threads), report)
+            except InputError as error:
+                raise error.of_arguments({"content.inverse.eyes_mm": "target_eyes_mm"}) from None
     warn(notes)
     return image
 

@@ -51,6 +51,10 @@ class Named(TinyTest):
             for call in (lfdsim.render, lfdsim.Panel, lfdsim.panel_codes):
                 with self.assertWarnsRegex(lfdsim.LfdsimWarning, remedy):
                     call(d, doubtful)
+        wide = codes.astype(np.uint16)
+        for call in (lfdsim.render, lfdsim.Panel, lfdsim.panel_codes):
+            with self.assertWarnsRegex(lfdsim.LfdsimWarning, r"panel holds codes of up to 128, and white is 65535: .*panel\.astype\(numpy\.uint8\)"):
+                call(d, wide)
         with self.assertWarnsRegex(lfdsim.LfdsimWarning, "its code is that of 1"):
             lfdsim.panel_codes(d, codes / 100.0)
         self.refused(lfdsim.InputError, "panel: holds -0.5 in channel R at column 0, row 0", lfdsim.panel_codes, d, codes * 0.0 - 0.5)
@@ -60,6 +64,10 @@ class Named(TinyTest):
             lfdsim.png(codes.astype(float))
         with warnings.catch_warnings():
             warnings.simplefilter("error")
+            specks = np.zeros_like(wide)
+            specks[5, 7] = 200
+            for panel in (wide * 0, wide * 257, specks):
+                lfdsim.panel_codes(d, panel)
             lfdsim.compare(codes / 100.0, codes)  # what a display shows may be brighter than its mean white
             opaque = np.concatenate([codes, np.full((48, 88, 1), 255, np.uint8)], axis=2)
             np.testing.assert_array_equal(lfdsim.render(d, opaque), lfdsim.render(d, codes))
@@ -85,6 +93,36 @@ class Named(TinyTest):
                      lfdsim._core.require_memory, "a", "3 pictures", 1e15)
         self.refused(lfdsim.InputError, "give one of them", lfdsim.render, d, good, model="pyramid.obj")
 
+    def test_warnings_point_to_the_line_that_called(self) -> None:
+        d, bright = self.display, np.full((48, 88, 3), 1.5)
+        narrow = d.with_({"content.pickup": "inverse", "content.inverse.eyes_mm": [[0, 0, 400], [0.1, 0, 400]], "content.inverse.iterations": 1})
+        for call in [
+            lambda: lfdsim.render(d, bright),
+            lambda: lfdsim.Panel(d, bright),
+            lambda: lfdsim.panel_codes(d, bright),
+            lambda: lfdsim.png(bright * 100),
+            lambda: lfdsim.compare(bright * 20, bright),
+            lambda: lfdsim.elemental_images(narrow),
+        ]:
+            with self.assertWarns(lfdsim.LfdsimWarning) as caught:
+                call()
+            self.assertEqual(caught.filename, __file__)
+        self.assertIn("content.inverse.eyes_mm", str(caught.warning))  # as no argument is called --eyes-mm
+
+    def test_eyes_of_targets(self) -> None:
+        targets = [np.full((54, 96, 3), 0.5, np.float32)]
+        for kind, words, eyes in [
+            (TypeError, r"target_eyes_mm\[0\] is a str; give a number", ["abc"]),
+            (TypeError, r"target_eyes_mm\[0\] is 5; give 3 numbers", [5]),
+            (TypeError, r"target_eyes_mm is 5; give \(x, y, z\)", 5),
+            (lfdsim.InputError, r"target_eyes_mm\[0\]: is \(0, 0\); give 3 numbers", [(0, 0)]),
+            (lfdsim.InputError, r"target_eyes_mm\[0\]: is nan", [(0, 0, math.nan)]),
+            (lfdsim.InputError, "target_eyes_mm: an eye at .* behind the panel", [(0, 0, -5)]),
+        ]:
+            with self.subTest(words):
+                named = {"pickup": "inverse", "targets": targets, "target_eyes_mm": eyes}
+                self.refused(kind, "^" + words, lfdsim.elemental_images, self.display, **named)
+
     def test_options(self) -> None:
         d = self.display
         for kind, words, named in [
@@ -96,6 +134,7 @@ class Named(TinyTest):
             (lfdsim.DisplayError, "samples: render.samples", {"samples": 2.5}),
             (lfdsim.DisplayError, "estimator: render.estimator", {"estimator": "magic"}),
             (lfdsim.DisplayError, "camera.resolution", {"size": (10**6, 10**6)}),
+            (lfdsim.DisplayError, "seed: render.seed: is or holds 9223372036854775808; whole numbers have 64 bits", {"seed": 2**63}),
             (lfdsim.InputError, "threads: is -1", {"threads": -1}),
             (TypeError, "threads is a float", {"threads": 1.0}),
             (lfdsim.InputError, "device: unknown device 'tpu'", {"device": "tpu"}),
@@ -118,6 +157,9 @@ class Named(TinyTest):
         self.refused(lfdsim.DisplayError, "'': is unknown", d.with_, {"": 3})
         self.refused(TypeError, "text is a bytes; give a text", lfdsim.Display.parse, b"schema = 1")
         self.refused(TypeError, "array.gap_mm: a object", d.with_, {"array.gap_mm": object()})
+        self.refused(TypeError, "panel.layer: None cannot be in a list; leave it out", d.with_, {"panel.layer": [None]})
+        self.refused(lfdsim.DisplayError, "panel.pixels: is or holds 36893488147419103232;", d.with_, {"panel.pixels": [2**65, 3]})
+        self.refused(TypeError, "warnings is a int; give True or False", lfdsim.check, d, 0)
         self.refused(TypeError, "key is a int", d.with_, {3: 4})
         self.refused(TypeError, "changes are a dict", d.with_, [("array.gap_mm", 3)])
         self.refused(lfdsim.DisplayError, "is unknown", d.with_, {"array.gap_mm=3 #": 4})
@@ -133,7 +175,7 @@ class Named(TinyTest):
         for words, name, named in [
             ("there are checkerboard", "plaid", {}),
             ("view: is .* give 2 numbers", "view", {"view": [3]}),
-            ("view_x.*-0.5 to 0.5", "view", {"view": (0.7, 0)}),
+            (r"^view\[0\]: 0.7 given; .*-0.5 to 0.5", "view", {"view": (0.7, 0)}),
             ("cell_pixels: is 0, allowed is 1", "checkerboard", {"cell_pixels": 0}),
         ]:
             self.refused(lfdsim.InputError, words, lfdsim.pattern, self.display, name, **named)

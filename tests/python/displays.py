@@ -5,6 +5,7 @@ import os
 import pathlib
 import pickle
 import unittest
+from typing import Any
 from xml.etree import ElementTree
 
 import lfdsim
@@ -28,6 +29,12 @@ class Keys(TinyTest):
         self.assertEqual([layer["thickness_mm"] for layer in d["panel.layer"]], [1.0, 0.5])
         self.assertEqual(d.with_({"panel.layer.1.thickness_mm": 0.25})["panel.layer.1.thickness_mm"], 0.25)
         self.assertEqual(d["panel.layer.1.glass"], "PMMA")
+
+    def test_what_is_absent_is_none(self) -> None:
+        d = lfdsim.Display.parse(TINY.replace('name = "tiny"\n', ""))
+        for key in ("name", "content.model", "errors.table", "content.inverse.start", "camera.fov_deg"):
+            self.assertIsNone(d[key], key)
+        self.assertIsNone(d.to_dict()["errors"]["table"])
 
     def test_an_unknown_key_names_the_one_that_was_meant(self) -> None:
         with self.assertRaisesRegex(KeyError, "array.gap: is unknown; did you mean array.gap_mm"):
@@ -80,6 +87,29 @@ class Changes(TinyTest):
         self.assertEqual(d["camera.position_mm"], (1.0, 2.0, 400.0))
         self.assertEqual((d["render.seed"], d["array.gap_mm"], d["name"]), (7, 5.5, changes["name"]))
         self.assertEqual(d["lens.glass"], {"nd": 1.5, "vd": 60.0})
+
+    def test_tables_can_be_put_back(self) -> None:
+        thirds = [{"channel": c, "pixel": [0, 0], "rect": [k / 3, 0, (k + 1) / 3, 1]} for k, c in enumerate("rgb")]
+        pyramid = {"model": "pyramid.obj", "height_mm": 20.0}
+        glass = {"name": "mine", "nd": 1.5, "vd": 60, "range_nm": [400, 700]}
+        changes: list[dict[str, Any]] = [
+            {"content.model": None, "content.object": [pyramid | {"position_mm": [9, 0, 3]}, pyramid], "content.height_mm": None, "content.depth_mm": None},
+            {"content.model": "pyramid.obj", "content.depth_mm": None},
+            {"panel.layer": [{"thickness_mm": 1.0, "index": 1.5}, {"thickness_mm": 0.5, "glass": "PMMA"}]},
+            {"panel.subpixels": "custom", "panel.subpixel_cell": [1, 1], "panel.subpixel": thirds},
+            {"diffuser": None, "lens.glass": {"cauchy": [1.5, 0.004, 0]}, "lens.index": None},
+            {"lens.glass": glass, "lens.index": None},
+            {"content.inverse.eyes_mm": [[-50, 0, 400], [50, 0, 400]]},
+        ]
+        made = [self.display.with_(change) for change in changes] + [lfdsim.Display.load(path) for path in SHIPPED]
+        for d in made:
+            again = d.with_(d.to_dict())
+            self.assertEqual((again, lfdsim.check(again, warnings=False)), (d, lfdsim.check(d, warnings=False)))
+            for table in {key.rpartition(".")[0] for key in d.keys()} | {"content.object", "panel.layer"}:
+                self.assertEqual(d.with_({table: d[table]}) if table else d, d, table)
+        camera = self.display["camera"]
+        camera["resolution"] = (12, 8)
+        self.assertEqual(self.display.with_({"camera": camera}), self.display.with_({"camera.resolution": (12, 8)}))
 
     def test_errors_are_those_of_the_program(self) -> None:
         import subprocess

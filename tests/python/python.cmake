@@ -22,7 +22,7 @@ if(TARGET _core)
   add_test(NAME python.wheel_full COMMAND ${CMAKE_CURRENT_LIST_DIR}/wheel.sh ${PROJECT_SOURCE_DIR} ${LFDSIM_PYTHON_INTERPRETER})
   set_tests_properties(python.wheel_full PROPERTIES TIMEOUT 3600 RUN_SERIAL ON LABELS full SKIP_RETURN_CODE 77)
   # Studies: those that take longer, and those on clusters (skipped where distributed or Slurm is missing), are left to --full.
-  foreach(script file design store run program report pictures dask slurm tolerance)
+  foreach(script file checks design store run program report pictures dask slurm tolerance)
     add_test(NAME study.${script} COMMAND ${LFDSIM_PYTHON_INTERPRETER} -m unittest test_${script}
       WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/tests/study)
     set_tests_properties(study.${script} PROPERTIES ENVIRONMENT "${environment}" TIMEOUT 900 SKIP_RETURN_CODE 77)

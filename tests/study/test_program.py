@@ -17,6 +17,7 @@ from lfdsim.study.problems import StudyError
 from lfdsim.study.tolerances import tolerance
 
 PROGRAM = pathlib.Path(os.environ["LFDSIM_PROGRAM"])
+ARRAY = pathlib.Path(__file__).resolve().parents[2] / "examples" / "study" / "array.sh"
 INSTALLED = (sys.executable, "-c", "from lfdsim.program import main; main()")
 
 
@@ -45,6 +46,40 @@ class Program(StudyTest):
         done = self.run_it("tolerance", "display.toml", "-o", "out", "--draws", 3, "--alone", 0, "--measure", "check")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.out / "tolerance.html").exists())
+
+    def array(self, tasks: list[int], *words: object) -> list[subprocess.CompletedProcess]:
+        """What Slurm runs for `sbatch --array=TASKS array.sh FOLDER WORDS`, by this Python in place of the system's."""
+        script = ARRAY.read_text()
+        self.assertIn("exec python3 ", script)
+        (self.folder / "array.sh").write_text(script.replace("exec python3 ", f"exec {sys.executable} "))
+        names = ("COUNT", "MIN", "MAX", "ID")
+        return [
+            subprocess.run(
+                ["bash", self.folder / "array.sh", self.out, *map(str, words)],
+                env=os.environ | {f"SLURM_ARRAY_TASK_{n}": str(v) for n, v in zip(names, (len(tasks), min(tasks), max(tasks), task))},
+                capture_output=True,
+                text=True,
+            )
+            for task in tasks
+        ]
+
+    def chunks(self) -> list[str]:
+        return sorted(p.name for p in (self.out / "rows").glob("*.parquet"))
+
+    def test_parts_of_an_array_job(self):
+        """The study has two chunks."""
+        api.plan(self.file, self.out)
+        for tasks in ([1], [1, 2], [0, 2]):
+            for done in self.array(tasks):
+                self.assertEqual(done.returncode, 2)
+                self.assertRegex(done.stderr, f"no whole array; give --array=0-{len(tasks) - 1} .* N after the folder: sbatch --array=. array.sh .*/out N")
+        self.assertEqual(self.chunks(), [])
+        (done,) = self.array([1], 2)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.chunks(), ["chunk-000001.parquet"])
+        for done in self.array([0, 1]):
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.chunks(), ["chunk-000000.parquet", "chunk-000001.parquet"])
 
     def test_help(self):
         everything = self.run_it("--help").stdout

@@ -110,20 +110,20 @@ class OnSlurm(StudyTest):
                 os.kill(pid, 15)
                 wait(lambda: not os.path.exists(f"/proc/{pid}"))
 
-    def submit(self) -> str:
+    def submit(self, tasks: str, *words: str) -> str:
         """The example's script, with this Python in place of the system's."""
         script = (EXAMPLES / "array.sh").read_text()
         self.assertIn("exec python3 ", script)
         path = self.folder / "array.sh"
         path.write_text(script.replace("exec python3 ", f"exec {sys.executable} "))
-        return tell("sbatch", "--parsable", "--array=0-3", f"--output={self.folder}/%A_%a.log", path, self.out).strip()
+        return tell("sbatch", "--parsable", f"--array={tasks}", f"--output={self.folder}/%A_%a.log", path, self.out, *words).strip()
 
     def ended(self) -> bool:
         return not tell("squeue", "-h")
 
     def test_array_jobs_of_which_one_is_killed(self):
         self.assertEqual(call("plan", self.file, "-o", self.out).returncode, 0)
-        job = self.submit()
+        job = self.submit("0-3")
         wait(lambda: len(list((self.out / "rows").glob("*.parquet"))) >= 1)
         running = tell("squeue", "-h", "-r", "-t", "running", "-o", "%i").split()
         self.assertTrue(running)
@@ -132,7 +132,7 @@ class OnSlurm(StudyTest):
         early = call("collect", self.out)
         self.assertIn("is not finished", early.stderr, f"{job}: the killed task had nothing left to do")
         before = {p.name: p.stat().st_ino for p in (self.out / "rows").glob("*.parquet")}
-        self.submit()
+        self.submit(running[0].rpartition("_")[2], "4")  # that task alone
         wait(self.ended)
         done = call("collect", self.out)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -185,12 +185,17 @@ class Kept(StudyTest):
             ('"rows_per_chunk": 3', '"rows_per_chunk": 2'),
             ('"seed": 5', '"seed": 6'),
             ('"version"', '"vision"'),
+            ("focal_length_mm = 15.7", "focal_length_mm = 16.7"),
+            ("display_folder\": \"/", "display_folder\": \"/other/"),
+            ('"name": "study"', '"name": "other"'),
+            ('"format": 2', '"format": 1'),
         ):
             with self.subTest(new):
                 self.assertIn(old, whole)
                 path.write_text(whole.replace(old, new))
-                with self.assertRaises(StudyError):
-                    planned.load(self.out).table()
+                for work in (self.run_it, lambda: planned.load(self.out), lambda: study.run_part(self.out, 0, 1)):
+                    with self.assertRaises(StudyError):
+                        work()
         for damaged in ("", "{}", "[]", '{"basis": []}', "[" * 100_000, whole[:100], b"\xff\xfe"):
             with self.subTest(damaged[:20]):
                 path.write_bytes(damaged if isinstance(damaged, bytes) else damaged.encode())

@@ -2,7 +2,6 @@
 
 import json
 import unittest
-from unittest import mock
 
 import numpy as np
 import pandas
@@ -39,17 +38,36 @@ class Chance(unittest.TestCase):
     def intervals(self, draws, times):
         random = np.random.default_rng(3)
         for _ in range(times):
-            lost = np.abs(random.standard_normal(draws))
-            with mock.patch.object(tolerances, "RESAMPLES", 100):
-                yield tolerances._chance({s: s * lost for s in (0.5, 1, 2)}, stats.norm.ppf(0.975), 95.0, lambda x: float(np.percentile(x, 95, method="higher")))
+            lost = np.sort(np.abs(random.standard_normal(draws)))
+            yield tolerances._interval({s: s * lost for s in (0.5, 1, 2)}, stats.norm.ppf(0.975), 95.0)
 
     def test_most_intervals_hold_the_scale(self):
-        found = list(self.intervals(60, 100))
-        self.assertGreater(sum(low <= 1 <= high for low, high in found), 85)  # about 94
-        self.assertLess(np.median([high / low for low, high in found]), 2)
+        for draws in (59, 60, 100, 200):
+            found = list(self.intervals(draws, 1000))
+            self.assertGreater(sum(low <= 1 <= high for low, high in found), 930)  # at least 950, and two standard deviations of chance
+            self.assertLess(np.median([high / low for low, high in found]), 2)
 
     def test_few_draws_say_nothing_of_the_rarest(self):
-        self.assertTrue(np.isnan(list(self.intervals(59, 1))).all())
+        self.assertTrue(np.isnan(list(self.intervals(58, 1))).all())
+
+    def test_ranks_by_counting(self):
+        """P(l <= B < u) of a binomial B is the chance that the percentile lies between the draws of ranks l and u."""
+        for percent, fewest in ((95, 59), (99, 299), (50, 6), (5, 59)):
+            self.assertEqual(tolerances.fewest_draws(percent), fewest)
+            self.assertIsNone(tolerances.ranks_about(fewest - 1, percent))
+            for draws in (fewest, 2 * fewest, 1000):
+                low, high = tolerances.ranks_about(draws, percent)
+                chances = stats.binom.pmf(np.arange(draws + 1), draws, percent / 100)
+                self.assertGreaterEqual(chances[low:high].sum(), 0.95 - 1e-12)
+                widest = np.convolve(chances[1:draws], np.ones(high - low - 1), "valid").max()  # of any two ranks that are nearer
+                self.assertLess(widest, 0.95)
+                self.assertTrue(low <= tolerances.rank_of(draws, percent) <= high)
+
+    def test_the_rank_of_a_percentile(self):
+        """The smallest draw that so many per cent do not exceed."""
+        for draws, percent, rank in ((60, 95, 57), (59, 95, 57), (61, 95, 58), (20, 95, 19), (100, 7, 7), (1000, 99.9, 999), (3, 1, 1), (1, 99, 1)):
+            self.assertEqual(tolerances.rank_of(draws, percent), rank)
+            self.assertGreaterEqual(100 * rank, percent * draws - 1e-9)
 
 
 class Draws(unittest.TestCase):
@@ -122,8 +140,8 @@ class Budgets(unittest.TestCase):
             self.assertEqual(set(budget["how"]), {"unknown: the display without errors has no such figure, or an infinite one"})
 
     def test_lost_draws_beyond_the_percentile_do_not_count(self):
-        """Of 40 and of 41 draws the loss is that of the 39th."""
-        for draws, lost, how in ((40, 1, "or more: all"), (40, 2, "or more: larger"), (41, 2, "or more: all"), (41, 3, "or more: larger")):
+        """Of 40 draws the loss is that of the 38th, of 41 that of the 39th."""
+        for draws, lost, how in ((40, 2, "or more: all"), (40, 3, "or more: larger"), (41, 2, "or more: all"), (41, 3, "or more: larger")):
             layout = errors.Layout({"errors.gap_mm": SD}, draws, draws)
             rows = pandas.DataFrame({"f": np.zeros(layout.rows), "error": None})
             for group, scale, block in layout.blocks():
@@ -309,7 +327,7 @@ class WholeStudies(StudyTest):
         line = next(x for x in done.stdout.splitlines() if x.startswith("  errors.decenter_sd_mm: 1 of its size, 0.15; or more"))
         self.assertIn("larger ones were not measured (at 2: 5 of 5 draws impossible, most often because: ", line)
         self.assertIn("decenter_sd_mm of up to 0.2", line)
-        self.assertIn("An allowed scale has no interval", done.stdout)
+        self.assertIn("An allowed scale has an interval from 59 draws on for 95 %; make more draws", done.stdout)
         self.assertIn("5 draws of all errors together, 0 of them impossible.", done.stdout)
         self.assertIn("25 draws of each error alone and at other sizes, 10 of them impossible, most often because: ", done.stdout)
         self.assertIn('"content.viewing_distance_mm" = 900', (self.folder / "out" / "tolerance.toml").read_text())

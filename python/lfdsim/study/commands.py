@@ -8,10 +8,12 @@ import pathlib
 import signal
 import sys
 import tomllib
+import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TextIO, cast
 
 from .. import _core
+from ..errors import LfdsimWarning
 from . import api
 from .file import MOST_ROWS
 from .problems import StudyError, StudyFailed, counted, most_often
@@ -40,7 +42,17 @@ class _Harmless:
 
 def main(words: list[str]) -> int:
     with contextlib.redirect_stdout(cast(TextIO, _Harmless(sys.stdout))), contextlib.redirect_stderr(cast(TextIO, _Harmless(sys.stderr))):
-        return _main(words)
+        with warnings.catch_warnings():
+            warnings.showwarning = _show_warning
+            return _main(words)
+
+
+def _show_warning(
+    message: Warning | str, category: type[Warning], filename: str, lineno: int, file: TextIO | None = None, line: str | None = None
+) -> None:
+    """Of this package as the program's own; of others as Python does."""
+    own = issubclass(category, LfdsimWarning)
+    sys.stderr.write(f"lfdsim: warning: {message}\n" if own else warnings.formatwarning(message, category, filename, lineno, line))
 
 
 def _main(words: list[str]) -> int:
@@ -211,7 +223,7 @@ def _tolerance(a: argparse.Namespace) -> int:
     )
     from .reports import tolerance_page
 
-    for line in tolerance_page.summary(found):
+    for line in tolerance_page.summary(found, a.percent):
         print(line)
     print(f"{tolerance_page.write(found, a.percent)}: the report, with all figures")
     return 0

@@ -21,6 +21,7 @@ class Factor:
     levels: tuple[tuple[Value, ...], ...] = ()
     quantile: Quantile | None = None
     times: tuple[float, ...] = ()  # each key is the drawn number times this
+    kind: str = "values"  # the word by which the file gives the values: "from", "normal" ...
 
     @property
     def name(self) -> str:

@@ -128,9 +128,12 @@ def _factor(table: Table) -> Factor:
         factor = Factor(keys, _levels(table, keys))
     elif kinds[0] == "from":
         low, high, count = table.number("from"), table.number("to"), table.integer("steps", low=2, high=1_000_000)
-        factor = Factor(keys, tuple(tuple(x * by if by != 1 else x for by in times) for x in factors.steps(low, high, count)))
+        if low == high:
+            raise table.wrong("to", f"is {high}, as from is; give another end, or values = [{high}]")
+        levels = tuple(tuple(x * by if by != 1 else x for by in times) for x in factors.steps(low, high, count))
+        factor = Factor(keys, levels, kind="from")
     else:
-        factor = Factor(keys, (), _distribution(table.table(kinds[0]), kinds[0]), times)
+        factor = Factor(keys, (), _distribution(table.table(kinds[0]), kinds[0]), times, kinds[0])
     table.end()
     return factor
 
@@ -203,6 +206,8 @@ def _limit(table: Table) -> Limit:
     limit = Limit(table.text("figure"), table.number("min", None), table.number("max", None))
     if limit.low is None and limit.high is None:
         raise table.wrong("", "limits nothing; give min, max or both")
+    if limit.low is not None and limit.high is not None and limit.low > limit.high:
+        raise table.wrong("min", f"is {limit.low}, above max, which is {limit.high}: no row would pass; give a min up to max")
     table.end()
     return limit
 

@@ -57,7 +57,7 @@ def write(plan: Plan, row: int, made: dict[str, np.ndarray]) -> None:
             raise StudyError(
                 f"[[picture]] {name}",
                 f"of row {row} is {picture.shape[1]} x {picture.shape[0]}, others {store.shape[2]} x "
-                f"{store.shape[1]}; give the picture a size",
+                f"{store.shape[1]}; give the picture a size, or camera.resolution the same value in all rows",
             )
         with files.full_disk_told(plan.folder / NAME):
             store[row] = picture

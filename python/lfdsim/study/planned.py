@@ -16,11 +16,11 @@ import pyarrow.parquet as pq
 
 import lfdsim
 
-from . import columns, design, files, work
+from . import checks, columns, design, files, work
 from .file import Study, read_study
 from .problems import StudyError, listed, path_of
 
-FORMAT = 1  # of the folder
+FORMAT = 2  # of the folder
 KINDS = {  # of what stands in plan.json
     "format": int,
     "name": str,
@@ -31,6 +31,7 @@ KINDS = {  # of what stands in plan.json
     "display_folder": str,
     "display_text": str,
     "basis": dict,
+    "sum": str,  # of all the others
 }
 
 
@@ -113,7 +114,10 @@ def _make(study: Study, folder: pathlib.Path) -> Plan:
     work.check_measures(study)
     keys = _replicate_keys(study, display_text)
     rows = design.rows_of(study, keys)
-    _check_keys(study, display, [k for k in rows if k != "replicate"])
+    changed = [k for k in rows if k != "replicate"]
+    checks.check_keys(study, display, changed)
+    checks.check_effects(study, changed)
+    rows = checks.whole_numbers(study, display, rows)
     work.check_settings(study, _possible(study, display, rows), study.display_path.parent)
     table = columns.arrow_of(rows)
     per_chunk = study.rows_per_chunk or math.ceil(math.sqrt(len(table)) / 4)
@@ -126,20 +130,18 @@ def _make(study: Study, folder: pathlib.Path) -> Plan:
         raise StudyError(folder, f"cannot be made: {error.strerror}; give another folder") from error
     files.write_table(folder / "plan.parquet", table, {"study": identity}, rows_per_group=per_chunk)
     files.write_whole(folder / "study.toml", study.text.encode())
-    files.write_json(
-        folder / "plan.json",
-        {
-            "format": FORMAT,
-            "name": study.path.stem,
-            "identity": identity,
-            "rows": len(table),
-            "rows_per_chunk": per_chunk,
-            "checksum": files.checksum(table, {"study": identity}),
-            "display_folder": str(study.display_path.parent.resolve()),
-            "display_text": display_text,
-            "basis": basis,
-        },
-    )
+    plan = {
+        "format": FORMAT,
+        "name": study.path.stem,
+        "identity": identity,
+        "rows": len(table),
+        "rows_per_chunk": per_chunk,
+        "checksum": files.checksum(table, {"study": identity}),
+        "display_folder": str(study.display_path.parent.resolve()),
+        "display_text": display_text,
+        "basis": basis,
+    }
+    files.write_json(folder / "plan.json", plan | {"sum": files.digest(plan)})
     return dataclasses.replace(load(folder), study=study)
 
 
@@ -150,8 +152,6 @@ def load(folder: str | pathlib.Path) -> Plan:
     if not path.exists():
         raise StudyError(folder, "holds no study (no plan.json); plan one there: python -m lfdsim.study plan FILE.toml -o FOLDER")
     plan = _kept(path)
-    if plan["format"] != FORMAT:
-        raise StudyError(path, f"has format {plan['format']}, which this version does not know; give another folder")
     known = Plan(
         folder,
         plan["name"],
@@ -164,8 +164,8 @@ def load(folder: str | pathlib.Path) -> Plan:
         plan["checksum"],
         plan["basis"]["files"],
     )
-    if files.digest(plan["basis"]) != known.identity or files.digest(known.study.definition) != files.digest(plan["basis"]["study"]):
-        raise StudyError(path, "does not fit its own contents or study.toml beside it: one was changed by hand; give another folder")
+    if files.digest(known.study.definition) != files.digest(plan["basis"]["study"]):
+        raise StudyError(path, "does not fit study.toml beside it: one was changed by hand; give another folder")
     if plan["basis"]["version"] != lfdsim.__version__:
         raise StudyError(
             path,
@@ -176,9 +176,11 @@ def load(folder: str | pathlib.Path) -> Plan:
 
 
 def _kept(path: pathlib.Path) -> dict[str, Any]:
-    """A plan.json with all that make() writes there."""
+    """A plan.json as make() wrote it."""
     try:
         plan: dict[str, Any] = json.loads(path.read_text())
+        if plan["format"] != FORMAT:
+            raise StudyError(path, f"has format {plan['format']}, which this version does not know; give another folder")
         basis = plan["basis"]
         if (
             all(isinstance(plan[key], kind) for key, kind in KINDS.items())
@@ -186,8 +188,12 @@ def _kept(path: pathlib.Path) -> dict[str, Any]:
             and all(isinstance(basis[key], dict) for key in ("study", "files"))
             and "version" in basis
         ):
+            if plan["sum"] != files.digest({key: value for key, value in plan.items() if key != "sum"}):
+                raise StudyError(path, "was changed by hand; give another folder")
             return plan
         why = "it lacks what a plan says"
+    except StudyError:
+        raise
     except (OSError, KeyError, TypeError, ValueError, RecursionError) as error:
         why = f"{type(error).__name__}: {error}"
     raise StudyError(path, f"is not the plan of a study, or damaged ({why}); give another folder")
@@ -245,16 +251,6 @@ def _possible(study: Study, display: "lfdsim.Display", rows: design.Columns) -> 
         except (TypeError, ValueError):  # which will be the row's reason
             continue
     return found
-
-
-def _check_keys(study: Study, display: "lfdsim.Display", keys: list[str]) -> None:
-    """A key that no display has would fail in every row."""
-    for key in keys:
-        stem, _, last = key.rpartition(".")
-        try:
-            display[stem if last.isdigit() else key]
-        except (KeyError, ValueError) as error:
-            raise StudyError(f"{study.table or study.path}: {key}", f"is not a key of the display: {error}") from error
 
 
 def _replicate_keys(study: Study, display_text: str) -> tuple[str, ...]:

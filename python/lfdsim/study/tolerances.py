@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import json
+import math
 import pathlib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,12 +27,11 @@ if TYPE_CHECKING:
 
 PERCENT = (1, 5, 25, 50, 75, 95, 99)
 SIZE = [480, 270]
-RESAMPLES = 300
+CERTAIN = 0.95  # of studies whose interval of a scale holds the true one
 ROUNDING = 1e-12  # of a figure: what it changes by less is no change
 WAYS = ("change", "fall", "rise")
 EXTRAPOLATED = "extrapolated below the smallest size tried; state a smaller one to measure it"
 LEAST_EXTRAPOLATED = 0.1  # of the smallest scale tried: below it a power law says nothing
-FEWEST_BEYOND = 3  # draws beyond the percentile for an interval: with two 16 of 100 intervals miss the scale
 MEASURES = ("picture", "fov", "crosstalk")
 
 
@@ -116,7 +117,7 @@ def tolerance(
     changes = dict(set or {})
     described = work.changed(planned.display_in(display, changes)[1], display.parent, changes)
     alone = max(10, draws * 3 // 10) if alone is None else alone
-    layout = Layout(errors.sizes_of(described, display), draws, alone, table=str(described["errors.table"]))
+    layout = Layout(errors.sizes_of(described, display), draws, alone, table=described["errors.table"] or "")
     if layout.rows > MOST_ROWS:
         many = f"{draws} and {layout.alone} of each error alone are {layout.rows} rows"
         raise StudyError("draws", f"{many}; at most {MOST_ROWS} are possible")
@@ -216,28 +217,24 @@ def _percentiles(kept: "pandas.DataFrame", without: "pandas.Series", names: list
 def _budget(
     layout: Layout, rows: "pandas.DataFrame", without: "pandas.Series", losses: tuple[Loss, ...], percent: float
 ) -> "pandas.DataFrame":
-    """For each loss and group: the loss that `percent` of displays stay below at each scale; the scale at which that is the allowed loss,
-    and the interval of that scale by _chance()."""
+    """For each loss and group: the smallest loss that `percent` of draws do not exceed at each scale; the scale at which that is the
+    allowed loss, and the interval of that scale. An impossible display, or one without the figure, has lost it."""
     import pandas
-
-    def percentile(lost: np.ndarray) -> float:
-        """The smallest loss of a draw that as many as `percent` of all draws do not exceed. An impossible display, or one without the
-        figure, has lost it."""
-        return float(np.percentile(np.where(np.isfinite(lost), lost, np.inf), percent, method="higher"))
 
     lines = []
     for loss in losses if layout.alone else ():
         for group in layout.groups:
-            lost, cut = {}, {}
+            lost, at, cut = {}, {}, {}
             for scale, block in ((s, r) for g, s, r in layout.blocks() if g == group):
                 drawn = rows.iloc[block.start : block.stop][: layout.alone]  # the same draws at each scale
-                lost[scale] = loss.of(drawn[loss.figure].to_numpy(float), without[loss.figure])
-                if np.isinf(percentile(lost[scale])):
+                losses_of = loss.of(drawn[loss.figure].to_numpy(float), without[loss.figure])
+                lost[scale] = np.sort(np.where(np.isfinite(losses_of), losses_of, np.inf))
+                at[scale] = float(lost[scale][rank_of(len(drawn), percent) - 1])
+                if np.isinf(at[scale]):
                     cut[scale] = _why_none(drawn["error"], lost[scale])
-            at = {s: percentile(values) for s, values in lost.items()}
             scale, how = allowed_scale(at, loss.amount, cut)
             # How far the loss departs from a power of the scale below what was tried is not known.
-            low, high = (np.nan, np.nan) if how == EXTRAPOLATED else _chance(lost, loss.amount, percent, percentile)
+            low, high = (np.nan, np.nan) if how == EXTRAPOLATED else _interval(lost, loss.amount, percent)
             if not np.isfinite(without[loss.figure]):
                 how = "unknown: the display without errors has no such figure, or an infinite one"
             size = layout.sizes.get(group)
@@ -259,18 +256,41 @@ def _budget(
     return pandas.DataFrame(lines)
 
 
-def _chance(
-    lost: dict[float, np.ndarray], amount: float, percent: float, percentile: Callable[[np.ndarray], float]
-) -> tuple[float, float]:
-    """The central 95 % of allowed scales by bootstrap (Efron 1979): draws are resampled with replacement, alike at each scale. Bounds
-    are cut at the smallest and largest scale tried. NaN where fewer than FEWEST_BEYOND draws lie beyond the percentile."""
-    draws = len(next(iter(lost.values())))
-    if draws * (1 - percent / 100) < FEWEST_BEYOND - 1e-9:
+def rank_of(draws: int, percent: float) -> int:
+    """Of the smallest draw that as many as `percent` of all do not exceed, counted from 1."""
+    return max(1, math.ceil(draws * percent / 100 - 1e-9))
+
+
+def ranks_about(draws: int, percent: float) -> tuple[int, int] | None:
+    """Of two draws between which the percentile of all displays lies in CERTAIN of all studies, at least: the nearest two, by the binomial
+    distribution of how many draws lie below it (Thompson 1936). None where even all draws are too few."""
+    from scipy.stats import binom
+
+    below = binom.cdf(np.arange(draws), draws, percent / 100)  # below[k]: the chance that at most k are
+    ends = np.searchsorted(below, below + CERTAIN)
+    starts = np.flatnonzero(ends < draws)
+    if not len(starts):
+        return None
+    start = starts[np.argmin(ends[starts] - starts)]
+    return int(start) + 1, int(ends[start]) + 1
+
+
+def fewest_draws(percent: float) -> int:
+    """With which ranks_about() are known: that all lie on one side of the percentile is then rare."""
+    share = percent / 100
+    return next(n for n in itertools.count(1) if share**n + (1 - share) ** n <= 1 - CERTAIN)
+
+
+def _interval(lost: dict[float, np.ndarray], amount: float, percent: float) -> tuple[float, float]:
+    """Where the allowed scale is in CERTAIN of all studies: the scales that ranks_about() allow. Bounds are cut at the smallest and
+    largest scale tried. NaN where there are too few draws, or nothing was measured. `lost`: losses in rising order, by scale."""
+    ranks = ranks_about(len(next(iter(lost.values()))), percent)
+    if not ranks:
         return float("nan"), float("nan")
-    again = np.random.default_rng(0).integers(0, draws, (RESAMPLES, draws))
-    scales = [allowed_scale({s: percentile(values[pick]) for s, values in lost.items()}, amount)[0] for pick in again]
-    low, high = np.nanpercentile(scales, (2.5, 97.5)) if np.isfinite(scales).any() else (np.nan, np.nan)
-    return float(max(low, min(lost))), float(min(high, max(lost)))
+    high, low = (allowed_scale({s: float(values[rank - 1]) for s, values in lost.items()}, amount)[0] for rank in ranks)
+    if not np.isfinite(high):
+        return float("nan"), float("nan")
+    return (max(low, min(lost)) if np.isfinite(low) else min(lost)), min(high, max(lost))
 
 
 def _why_none(reasons: "pandas.Series", lost: np.ndarray) -> str:

@@ -12,7 +12,7 @@ from .. import files
 from . import page, plots
 from ..errors import ALL
 from ..problems import counted, most_often
-from ..tolerances import EXTRAPOLATED, FEWEST_BEYOND, Tolerance
+from ..tolerances import EXTRAPOLATED, Tolerance, fewest_draws
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -68,7 +68,7 @@ def _counts(found: Tolerance) -> list[str]:
 SHORT = ("without errors", "5 %", "50 %", "95 %")
 
 
-def summary(found: Tolerance) -> list[str]:
+def summary(found: Tolerance, percent: float) -> list[str]:
     """For a terminal 100 columns wide: a line for each figure, and for each loss and error."""
     lines = [*_counts(found)]
     if len(found.percentiles):
@@ -82,7 +82,7 @@ def summary(found: Tolerance) -> list[str]:
         for _, line in of_it.iterrows():
             size = "" if line["error"] == ALL else f", {_sizes(line)}"
             lines.append(f"  {line['error']}: {_scale(line)} of its size{size}; {line['how']}")
-        lines += [f"  {reason}"] if (reason := _too_few(of_it)) else []
+        lines += [f"  {reason}"] if (reason := _too_few(of_it, percent)) else []
     return lines
 
 
@@ -110,17 +110,17 @@ def _budget(found: Tolerance, lines: pd.DataFrame, percent: float) -> str:
     ]
     head = ["error", "size", f"loss that {percent:g} % do not exceed", "allowed scale", "allowed size", ""]
     return (
-        f"<h2>Budget for {html.escape(first['loss'])}</h2><p>In {percent:g} % of all displays it may {may} {first['allowed']:g} at most. {_too_few(lines)}</p>"
+        f"<h2>Budget for {html.escape(first['loss'])}</h2><p>In {percent:g} % of all displays it may {may} {first['allowed']:g} at most. {_too_few(lines, percent)}</p>"
         + page.table(head, rows)
         + _curves(found, lines, first["allowed"])
     )
 
 
-def _too_few(lines: pd.DataFrame) -> str:
+def _too_few(lines: pd.DataFrame, percent: float) -> str:
     """Why known scales have no interval, where that is so; those that are extrapolated say it themselves."""
     unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna() & (lines["how"] != EXTRAPOLATED)
     reason = (
-        f"An allowed scale has no interval where fewer than {FEWEST_BEYOND} draws lie beyond the percentile; make more draws (--draws, --alone)."
+        f"An allowed scale has an interval from {fewest_draws(percent)} draws on for {percent:g} %; make more draws (--draws, --alone)."
     )
     return reason if unsure.any() else ""
 
