@@ -69,11 +69,12 @@ code, out, err = analyze(f"spot {QUICK} -o whole")
 checks.that(code == 0 and {"fov.json", "dof.json", "spot.json"} <= set(times("whole")), f"another measure of the same settings: {err}")
 
 # What the model's file names, and a table of lenses, count as much.
+TABLE = "i,j,dx_mm,dy_mm,dz_mm,tilt_x_deg,tilt_y_deg,curvature\n0,0,{},0,0,0,0,0\n"
 (program.folder / "red.mtl").write_text("newmtl m\nKd 0.8 0.1 0.1\n")
 (program.folder / "named.obj").write_text("mtllib red.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
-(program.folder / "lenses.csv").write_text("i,j,dx_mm\n0,0,0.01\n")
+(program.folder / "lenses.csv").write_text(TABLE.format(0.01))
 NAMED = "fov tiny.toml --progress none --angles-deg=-30,30,10 --model named.obj --set errors.table=lenses.csv -o named"
-for file, text in (("red.mtl", "newmtl m\nKd 0.1 0.1 0.8\n"), ("lenses.csv", "i,j,dx_mm\n0,0,0.03\n")):
+for file, text in (("red.mtl", "newmtl m\nKd 0.1 0.1 0.8\n"), ("lenses.csv", TABLE.format(0.03))):
     code, out, err = analyze(NAMED + " --replace")
     before = times("named")["fov.json"]
     code, out, err = analyze(NAMED + " --resume")

@@ -87,14 +87,15 @@ done = times("again")
 checks.that("5 of them made before" in program.must(GO_ON) and times("again") == done, "resume: nothing was left to do")
 
 # What a model's file names, and a table of lenses, count as much.
+TABLE = "i,j,dx_mm,dy_mm,dz_mm,tilt_x_deg,tilt_y_deg,curvature\n0,0,{},0,0,0,0,0\n"
 (folder / "red.mtl").write_text("newmtl m\nKd 0.8 0.1 0.1\n")
 (folder / "named.obj").write_text("mtllib red.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
-(folder / "lenses.csv").write_text("i,j,dx_mm\n0,0,0.01\n")
+(folder / "lenses.csv").write_text(TABLE.format(0.01))
 NAMED = "render tiny.toml --model named.obj --set errors.table=lenses.csv --path path.json -o named --progress none --resume"
 program.must(NAMED)
 done = times("named")
 checks.that("5 of them made before" in program.must(NAMED) and times("named") == done, "resume: made frames of a model again")
-for file, text in (("red.mtl", "newmtl m\nKd 0.1 0.1 0.8\n"), ("lenses.csv", "i,j,dx_mm\n0,0,0.03\n")):
+for file, text in (("red.mtl", "newmtl m\nKd 0.1 0.1 0.8\n"), ("lenses.csv", TABLE.format(0.03))):
     (folder / file).write_text(text)
     checks.refused(program, f"another {file}", NAMED, "named: contains 5 pictures", "from other files")
     program.must(NAMED + " --replace")
