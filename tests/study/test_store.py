@@ -130,6 +130,21 @@ class Kept(StudyTest):
         with self.assertRaisesRegex(StudyError, "differs in: files"):
             self.run_it()
 
+    def test_what_a_model_names_counts_as_much(self):
+        model, material = self.folder / "parts" / "model.obj", self.folder / "parts" / "red.mtl"
+        model.parent.mkdir()
+        material.write_text("newmtl m\nKd 0.8 0.1 0.1\n")
+        model.write_text("mtllib red.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
+        (self.folder / "rows.csv").write_text("content.model\nparts/model.obj\n")
+        self.write('schema = 1\ndisplay = "display.toml"\ndesign = "table"\ntable = "rows.csv"\n[[measure]]\nname = "check"\n')
+        study.plan(self.file, self.out)
+        study.plan(self.file, self.out)  # the same study
+        material.write_text("newmtl m\nKd 0.1 0.1 0.8\n")
+        with self.assertRaisesRegex(StudyError, "red.mtl: has changed since"):
+            study.run_part(self.out, 0, 1)
+        with self.assertRaisesRegex(StudyError, "differs in: files"):
+            study.plan(self.file, self.out)
+
     def test_models_are_looked_at_by_whoever_computes(self):
         """An array job's tasks, or a machine where the model is another or missing: its rows would be others, or called impossible."""
         model = self.folder / "model.obj"

@@ -7,6 +7,7 @@ import functools
 import hashlib
 import json
 import math
+import os
 import pathlib
 import tomllib
 from typing import Any
@@ -271,12 +272,24 @@ def _basis(study: Study, display_text: str) -> dict[str, Any]:
 
 
 def _digests_of_files(values: object, folder: pathlib.Path) -> dict[str, str]:
-    """Of every file that a value names: models, tables of lenses, catalogues."""
+    """Of every file that a value names: models and the files that they name, tables of lenses, catalogues."""
     if isinstance(values, dict):
         values = list(values.values())
     if isinstance(values, list):
         return {k: v for value in values for k, v in _digests_of_files(value, folder).items()}
-    return {values: _digest_of(folder / values)} if isinstance(values, str) and work.names_file(folder, values) else {}
+    if not isinstance(values, str) or not work.names_file(folder, values):
+        return {}
+    return {name: _digest_of(folder / name) for name in [values, *_named_by_model(values, folder)]}
+
+
+def _named_by_model(name: str, folder: pathlib.Path) -> list[str]:
+    """The materials, textures and buffers of a model, relative to the folder; nothing of what is no model that can be read."""
+    path = folder / name
+    try:
+        read = lfdsim._core.files_of_model(str(path))
+    except (lfdsim.InputError, RuntimeError):
+        return []
+    return [os.path.relpath(file, folder) for file in read if not path.samefile(file)]
 
 
 def _digest_of(path: pathlib.Path) -> str:

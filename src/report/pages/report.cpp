@@ -96,7 +96,7 @@ std::string summary(const std::vector<ReportedFigure>& shown) {
 std::string settings(const ResultFolder& folder, const ReportAbout& about) {
     std::string html = "<p>The command:</p>\n<pre>" + escaped(about.command) + "</pre>\n<div class=\"wide\"><table>\n";
     for (const auto& [key, value] : folder.settings().items()) {
-        if (key == "display" || value.is_null()) continue;
+        if (key == "display" || value.is_null() || value == Json::array()) continue;
         std::string text = value.is_string() ? value.get<std::string>() : value.is_object() ? "" : value.dump();
         if (value.is_object())
             for (const auto& [name, part] : value.items())
