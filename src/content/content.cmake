@@ -4,7 +4,8 @@ add_executable(lfdsim-model-reader
   content/reader/main.cpp content/reader/import.cpp content/reader/axes.cpp content/reader/colours_3mf.cpp content/reader/fit_to_floats.cpp content/reader/limits/edited_text.cpp content/reader/limits/folder.cpp
   content/reader/gltf/gltf_draco.cpp content/reader/gltf/gltf_file.cpp content/reader/gltf/gltf_loader.cpp content/reader/gltf/gltf_materials.cpp content/reader/gltf/gltf_mesh.cpp
   content/reader/gltf/gltf_nodes.cpp content/reader/limits/limits.cpp content/reader/picture.cpp content/reader/ply/ply_file.cpp
-  content/reader/ply/ply_loader.cpp content/reader/limits/refusal.cpp content/reader/repairs.cpp content/reader/textures.cpp)
+  content/reader/ply/ply_loader.cpp content/reader/limits/refusal.cpp content/reader/repairs.cpp content/reader/smooth_normals.cpp
+  content/reader/textures.cpp)
 target_include_directories(lfdsim-model-reader PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(lfdsim-model-reader PRIVATE assimp::assimp draco::draco minizip lfdsim_image nlohmann_json::nlohmann_json)
 install(TARGETS lfdsim-model-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lfdsim)

@@ -50,10 +50,10 @@ def write_3mf(name, resources, build):
                          f'<resources>{resources}</resources><build>{build}</build></model>')
 
 
-def square_3mf(colour, of_object=""):
+def square_3mf(colour, of_object="", last=3):
     corners = "".join(f'<vertex x="{x}" y="0" z="{z}"/>' for x, z in [(-1, -1), (1, -1), (1, 1), (-1, 1)])
     return (f'<object id="1" type="model" {of_object}><mesh><vertices>{corners}</vertices><triangles><triangle v1="0" v2="1" v3="2" {colour}/>'
-            '<triangle v1="0" v2="2" v3="3"/></triangles></mesh></object>')
+            f'<triangle v1="0" v2="2" v3="{last}"/></triangles></mesh></object>')
 
 
 red = '<basematerials id="2"><base name="red" displaycolor="#FF0000"/></basematerials>'
@@ -65,6 +65,8 @@ for name, resources, note in [("plain.3mf", square_3mf(""), ""), ("red.3mf", red
     write_3mf(name, resources, item)
     code, _, err = program.run(f"photo tiny.toml --model {name} -o 3mf.png")
     checks.that(code == 0 and note in err and ("warning" in err) == bool(note), f"{name}: {code} {err}")
+write_3mf("vertex.3mf", square_3mf("", last=9), item)
+checks.refused(program, "a face beyond the vertices", "photo tiny.toml --model vertex.3mf -o 3mf.png", "indices of vertices that do not exist")
 write_3mf("itself.3mf", '<object id="2" type="model"><components><component objectid="2"/></components></object>', '<item objectid="2"/>')
 checks.refused(program, "a part of itself", "photo tiny.toml --model itself.3mf -o 3mf.png", "save it in another format")
 

@@ -15,6 +15,7 @@
 #include "content/reader/limits/whole_file.h"
 #include "content/reader/ply/ply_loader.h"
 #include "content/reader/repairs.h"
+#include "content/reader/smooth_normals.h"
 #include "content/reader/textures.h"
 #include "image/formats/encoding.h"
 
@@ -33,7 +34,7 @@ namespace lfdsim::reader {
 namespace {
 
 // A fold sharper than this, in degrees, remains an edge if the file has no normals.
-constexpr float crease_deg = 60;
+constexpr double crease_deg = 60;
 
 // Post-processing gives triangles in one frame: node transforms are applied, instances copied, points and lines removed.
 constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices | aiProcess_GenUVCoords |
@@ -296,7 +297,6 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     Assimp::Importer importer;
     auto* folder = new Folder(file);  // owned by the importer from here on
     importer.SetIOHandler(folder);
-    importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     NotShown not_shown;
     std::map<std::string, Tiling> tilings;
@@ -340,11 +340,9 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         repair(loaded, file, format);
         note_deformations(loaded, not_shown);
         if (is_3mf) note_3mf(file, not_shown);
-        const bool smoothed = !flat_without_normals(file, format);
-        if (smoothed) separate_corners(loaded);
         exponent += fit_to_floats(loaded, not_shown);
-        scene = importer.ApplyPostProcessing(steps | (may_join(loaded, format) ? aiProcess_JoinIdenticalVertices : 0u) |
-                                             (smoothed ? aiProcess_GenSmoothNormals : 0u));
+        if (!flat_without_normals(file, format)) smooth_normals(loaded, crease_deg);
+        scene = importer.ApplyPostProcessing(steps | (may_join(loaded, format) ? aiProcess_JoinIdenticalVertices : 0u));
     }
     if (!scene) {
         if (std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -37,42 +36,6 @@ void drop_normals(aiScene& scene) {
         delete[] scene.mMeshes[m]->mNormals;
         scene.mMeshes[m]->mNormals = nullptr;
     }
-}
-
-// Replaces a list with an entry for each vertex by one with an entry for each corner, of the vertex corners[i]. Null: there is
-// none.
-template <class T>
-void spread(T*& list, const std::vector<unsigned>& corners) {
-    if (!list) return;
-    auto of_corners = std::make_unique<T[]>(corners.size());
-    for (std::size_t i = 0; i < corners.size(); ++i) of_corners[i] = list[corners[i]];
-    delete[] list;
-    list = of_corners.release();
-}
-
-template <class T>
-void remove_all(T**& items, unsigned& count) {
-    for (unsigned i = 0; i < count; ++i) delete items[i];
-    delete[] items;
-    items = nullptr;
-    count = 0;
-}
-
-void separate_corners_of(aiMesh& mesh) {
-    std::vector<unsigned> corners;
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-        corners.insert(corners.end(), mesh.mFaces[f].mIndices, mesh.mFaces[f].mIndices + mesh.mFaces[f].mNumIndices);
-    spread(mesh.mVertices, corners);
-    spread(mesh.mTangents, corners);
-    spread(mesh.mBitangents, corners);
-    for (auto& coordinates : mesh.mTextureCoords) spread(coordinates, corners);
-    for (auto& colours : mesh.mColors) spread(colours, corners);
-    remove_all(mesh.mBones, mesh.mNumBones);
-    remove_all(mesh.mAnimMeshes, mesh.mNumAnimMeshes);
-    mesh.mNumVertices = unsigned(corners.size());
-    unsigned next = 0;
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-        for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k) mesh.mFaces[f].mIndices[k] = next++;
 }
 
 }  // namespace
@@ -135,11 +98,6 @@ void check_references(const aiScene& scene) {
             for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
                 if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices) throw std::runtime_error(missing_vertices);
     }
-}
-
-void separate_corners(aiScene& scene) {
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
-        if (!scene.mMeshes[m]->HasNormals() && scene.mMeshes[m]->HasFaces()) separate_corners_of(*scene.mMeshes[m]);
 }
 
 }  // namespace lfdsim::reader

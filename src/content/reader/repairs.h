@@ -24,10 +24,6 @@ inline constexpr const char* missing_vertices =
 /// leave such meshes out, and read beyond the end of the vertices.
 void check_references(const aiScene& scene);
 
-/// Gives each corner of a face a vertex of its own in meshes without normals. Assimp's smoothing takes that for granted: a vertex
-/// that faces share would have the normal of the last of them. Poses of bones and morph targets, which name vertices, are removed.
-void separate_corners(aiScene& scene);
-
 /// Gives corners whose normal is missing or broken (of a length not between 1/2 and 2), which would leave holes in the shading, a
 /// vertex of their own with the face's normal.
 void mend_normals(Model& model);
