@@ -1,5 +1,6 @@
 // What tracing says of displays that cannot do what they are meant for: right figures, and silence on good ones.
 #include "analysis/core/verdicts.h"
+#include "analysis/core/quick_look.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
