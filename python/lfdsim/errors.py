@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 _OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*[a-z])")
-_KEYS_OF_OPTIONS = {"eyes-mm": "content.inverse.eyes_mm"}  # that no argument stands for
+_KEYS_OF_OPTIONS = {"eyes-mm": "content.inverse.eyes_mm"}  # options without an argument in Python
 _KEY = re.compile(r"[a-z_]+(\.[a-z_0-9]+)*(\[\d+\])*\Z")
 
 

@@ -23,11 +23,11 @@ class Effects(StudyTest):
 
     def test_a_key_that_changes_nothing_is_refused(self):
         for text, key, said in (
-            (CAMERA + FRONT + "camera_mm = [0, 0, 600]\n", "camera.position_mm.2", r"camera_mm of \[\[picture\]\] front takes its place"),
-            (SIZE + FRONT + "size = [48, 27]\n", "camera.resolution", "size of .* takes its place"),
-            (SIZE + FOV + "size = [48, 27]\n" + FRONT + "size = [8, 4]\n", "camera.resolution", "fov, size of .* front take its place"),
-            (MODEL + FOV + 'model = "built-in:spheres"\n', "content.object.0.tilt_deg", "model of .* takes its place; leave out one or the other"),
-            ("replicates = 2\n" + CAMERA + FOV + "seed = 3\n", "render.seed", "seed of .* takes its place; leave that out, or give other replicate_keys"),
+            (CAMERA + FRONT + "camera_mm = [0, 0, 600]\n", "camera.position_mm.2", r"camera_mm of \[\[picture\]\] front overrides it"),
+            (SIZE + FRONT + "size = [48, 27]\n", "camera.resolution", "size of .* overrides it"),
+            (SIZE + FOV + "size = [48, 27]\n" + FRONT + "size = [8, 4]\n", "camera.resolution", "fov, size of .* front override it"),
+            (MODEL + FOV + 'model = "built-in:spheres"\n', "content.object.0.tilt_deg", "model of .* overrides it; leave out one or the other"),
+            ("replicates = 2\n" + CAMERA + FOV + "seed = 3\n", "render.seed", "seed of .* overrides it; leave that out, or give other replicate_keys"),
         ):
             with self.subTest(key), self.assertRaisesRegex(StudyError, f"study.toml: {key}: changes nothing: .*{said}"):
                 self.planned(text)
@@ -50,7 +50,7 @@ class Effects(StudyTest):
 
     def test_a_key_of_set_that_changes_nothing_is_warned_of(self):
         fixed = '[set]\n"camera.resolution" = [9, 6]\n'
-        with self.assertWarnsRegex(lfdsim.LfdsimWarning, r"\[set\] camera.resolution changes nothing: size of \[\[picture\]\] front takes"):
+        with self.assertWarnsRegex(lfdsim.LfdsimWarning, r"\[set\] camera.resolution changes nothing: size of \[\[picture\]\] front overrides it"):
             self.planned(fixed + CAMERA + FRONT + "size = [8, 4]\n")
 
     def test_what_acts_everywhere_is_not_warned_of(self):

@@ -327,7 +327,7 @@ class WholeStudies(StudyTest):
         line = next(x for x in done.stdout.splitlines() if x.startswith("  errors.decenter_sd_mm: 1 of its size, 0.15; or more"))
         self.assertIn("larger ones were not measured (at 2: 5 of 5 draws impossible, most often because: ", line)
         self.assertIn("decenter_sd_mm of up to 0.2", line)
-        self.assertIn("An allowed scale has an interval from 59 draws on for 95 %; make more draws", done.stdout)
+        self.assertIn("At 95 % an allowed scale has an interval only with 59 draws or more; make more draws", done.stdout)
         self.assertIn("5 draws of all errors together, 0 of them impossible.", done.stdout)
         self.assertIn("25 draws of each error alone and at other sizes, 10 of them impossible, most often because: ", done.stdout)
         self.assertIn('"content.viewing_distance_mm" = 900', (self.folder / "out" / "tolerance.toml").read_text())

@@ -15,7 +15,7 @@ from .factors import Factor
 from .file import Study
 from .problems import StudyError, listed
 
-# The keys that a setting of a measure or picture takes the place of.
+# The keys that a setting of a measure or picture overrides.
 REPLACED = {name: (key,) for name, key in KEYS.items()} | {"model": ("content.model", "content.object")}
 
 
@@ -29,24 +29,24 @@ def check_keys(study: Study, display: "lfdsim.Display", keys: Iterable[str]) -> 
 
 
 def check_effects(study: Study, keys: Iterable[str]) -> None:
-    """Refuses a key in whose place every measure and picture has a setting of its own, and warns where only some have, and of keys of
-    [set] in whose place all have."""
+    """Refuses a key that settings of every measure and picture override; warns of one that some override, and of a key of [set] that
+    all override."""
     places = [(f"[[measure]] {m.label}", list(m.settings)) for m in study.measures]
     for picture in study.pictures:  # what it is compared with has the samples of the display
         places.append((f"[[picture]] {picture.name}", [s for s in picture.settings if not (s == "samples" and picture.compare)]))
     for key in (*study.fixed, *keys):
         own = [[f"{s} of {where}" for s in settings if _replaces(s, key)] for where, settings in places]
-        deaf = [setting for found in own for setting in found]
-        takes = f"{listed(deaf)} {'takes' if len(deaf) == 1 else 'take'} its place"
+        overriding = [setting for found in own for setting in found]
+        override = f"{listed(overriding)} {'overrides' if len(overriding) == 1 else 'override'} it"
         if key in study.fixed:
             if all(own):
-                warn([f"{study.path}: [set] {key} changes nothing: {takes}"])
+                warn([f"{study.path}: [set] {key} changes nothing: {override}"])
         elif all(own):
             repeats = study.replicates > 1 and key in (study.replicate_keys or ("render.seed",))
             remedy = "leave that out, or give other replicate_keys" if repeats else "leave out one or the other"
-            raise StudyError(f"{study.table or study.path}: {key}", f"changes nothing: {takes}; {remedy}")
-        elif deaf:
-            warn([f"{study.table or study.path}: {key} changes only a part of the figures: {takes}"])
+            raise StudyError(f"{study.table or study.path}: {key}", f"changes nothing: {override}; {remedy}")
+        elif overriding:
+            warn([f"{study.table or study.path}: {key} changes only a part of the figures: {override}"])
 
 
 def _replaces(setting: str, key: str) -> bool:

@@ -226,8 +226,7 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
     const std::string eyes = fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", apart, eye);
     const std::string best = fmt::format(
         "only {} mm wide there, and beyond it the lenses show their neighbours' images. Twice the eyes' distance would be best, as "
-        "from "
-        "{} mm on",
+        "from {} mm on",
         digits(zone), digits(eye * 2 * apart / zone));
     if (zone < apart && eye >= nearest_sight_mm) return fmt::format("{} do not fit into the viewing zone: it is {}", eyes, best);
     const std::optional<BetweenEyes> mixed = between_eyes(d, g);

@@ -39,9 +39,8 @@ struct NewArguments {
     Option pitch_mm = command.option("--pitch-mm", "P", "Lens pitch, in place of --views; for strips across their axes");
     Option depth_mm = command.option("--depth-mm", "L",
                                      "Central depth plane, measured from the lenses towards the eye; default D/10, or for eyes "
-                                     "nearer than 250 mm -1000 or, if that "
-                                     "is nearer, about -50 D; "
-                                     "strips are focused on the panel");
+                                     "nearer than 250 mm -1000 or, if that is nearer, about "
+                                     "-50 D; strips are focused on the panel");
     Option slant_deg = command.option("--slant-deg", "A",
                                       "Slant of strips from the vertical, positive where upper ends lean to the viewer's right; "
                                       "default 18.43, 1 in 3; 0 for two views");

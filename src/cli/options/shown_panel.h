@@ -8,7 +8,7 @@ struct PanelTexels {
     Texels texels;
     Json made = Json::object();           // how it was made, for --json
     std::string text = {};                // what a reader should know of it: "; ..." or nothing
-    std::vector<std::string> files = {};  // that its models are and name
+    std::vector<std::string> files = {};  // from which its models were read
 };
 
 /// Returns the light of the image file, the pattern, or the elemental images of the display's model. Throws InputError, and

@@ -81,8 +81,8 @@ line and column.
 On the command line `--set key=value` changes one value: the key with its table before a dot, the value as in TOML. Words need no
 quotes (`--set lens.facing=panel`), `none` removes a key or table (`--set diffuser=none`) unless it is one of the key's words
 (`--set panel.subpixels=none`), and surfaces are counted from 0 (`--set lens.surface.1.conic=-0.4`), as are objects. A model, image or glass catalogue given in this way is relative to the working
-directory, one named in the file to the file's folder. An option of its own, such as `--frame-width-mm`, has precedence over `--set` of its key and of a
-key that states the same in another way (`camera.fov_deg`). Files have at most 1 MiB and nest at most 16 levels.
+directory, one named in the file to the file's folder. An option that sets a key, such as `--frame-width-mm`, overrides `--set` of that key and
+of a key for the same property (`camera.fov_deg`). Files have at most 1 MiB and nest at most 16 levels.
 
 ## Glass
 

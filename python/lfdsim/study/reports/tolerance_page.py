@@ -120,7 +120,7 @@ def _too_few(lines: pd.DataFrame, percent: float) -> str:
     """Why known scales have no interval, where that is so; those that are extrapolated say it themselves."""
     unsure = lines["allowed scale"].notna() & lines["allowed scale from"].isna() & (lines["how"] != EXTRAPOLATED)
     reason = (
-        f"An allowed scale has an interval from {fewest_draws(percent)} draws on for {percent:g} %; make more draws (--draws, --alone)."
+        f"At {percent:g} % an allowed scale has an interval only with {fewest_draws(percent)} draws or more; make more draws (--draws, --alone)."
     )
     return reason if unsure.any() else ""
 
