@@ -216,10 +216,10 @@ TEST(Verdicts, CrosstalkIsTheMeasures) {
     shifted.errors.shift_mm = {0.18, 0};
     for (const Display& d : {wall(), shifted}) {
         const auto [traced, in_theory] = measured_between_eyes(d);
-        const auto mixed = between_eyes(d, resolve(d));
+        const auto mixed = between_eyes_percent(d, resolve(d));
         ASSERT_TRUE(mixed);
-        EXPECT_NEAR(mixed->percent.traced / (100 + mixed->percent.traced), traced / (100 + traced), 0.02);
-        EXPECT_NEAR(mixed->percent.theory / (100 + mixed->percent.theory), in_theory / (100 + in_theory), 0.02);
+        EXPECT_NEAR(mixed->traced / (100 + mixed->traced), traced / (100 + traced), 0.02);
+        EXPECT_NEAR(mixed->theory / (100 + mixed->theory), in_theory / (100 + in_theory), 0.02);
     }
 }
 
@@ -347,7 +347,7 @@ TEST(Verdicts, EyesInsideTheDisplay) {
     d.diffuser.reset();
     d.camera.position_mm = {0, 0, 40};
     EXPECT_FALSE(seen_at_once(d, resolve(d)));
-    EXPECT_FALSE(between_eyes(d, resolve(d)));
+    EXPECT_FALSE(between_eyes_percent(d, resolve(d)));
     verdicts_of(d);
 }
 

@@ -77,28 +77,27 @@ std::optional<SeenAtOnce> seen_at_once(const Display& d, const Geometry& g) {
     return SeenAtOnce{lfdsim::theory(d, g).along[axis].elemental_pitch_mm, {width, even_width(theory)}, through};
 }
 
-double viewing_zone_mm(const Display& d, const Geometry& g) {
-    if (line_of_eyes(g.lattice) == 1) return nan;
-    return (camera_distance_mm(d) - g.rear_principal_mm) * image_along_eyes_mm(d, g) / g.gap_mm;
+double zone_before_camera_mm(const Display& d, const Geometry& g) {
+    return line_of_eyes(g.lattice) == 1 ? nan : viewing_zone_mm(d, g, camera_distance_mm(d) - g.rear_principal_mm);
 }
 
-std::optional<BetweenEyes> between_eyes(const Display& as_made, const Geometry& g) {
+std::optional<TracedAndTheory> between_eyes_percent(const Display& as_made, const Geometry& g) {
     Display d = as_made;
     d.content.viewing_distance_mm = camera_distance_mm(d);
     const std::optional<Vec3d> middle = eye_before(d, g);
-    if (!middle || !(viewing_zone_mm(d, g) >= usual_eye_separation_mm)) return {};
+    if (!middle || !(zone_before_camera_mm(d, g) >= usual_eye_separation_mm)) return {};
     const double distance = (*middle)[2];
     const MeantPanel panel(d, g, d.content.sampling);
     const EyePaths paths(d, g);
     const MeantTheory paraxial(d, g);
     const LineSets lines(lines_of_screen / (2 * independent_sets) * paths.more_for(*middle), 0);
-    std::optional<BetweenEyes> worse;
+    std::optional<TracedAndTheory> worse;
     for (const std::size_t side : {0u, 1u}) {
         const Vec3d eye{(double(side) - 0.5) * usual_eye_separation_mm, 0, distance};
         const auto percent = [&](const MeantLight& light) { return crosstalk_of(light, leak_of_side(light, side)).percent.value; };
         const double traced = percent({paths.look(eye, lines, EyePaths::Counting::by_lens), paths.weights(), panel});
-        if (std::isnan(traced) || (worse && traced <= worse->percent.traced)) continue;
-        worse = BetweenEyes{{traced, percent({paraxial.look(eye, lines), {luminance_weights}, panel})}};
+        if (std::isnan(traced) || (worse && traced <= worse->traced)) continue;
+        worse = {traced, percent({paraxial.look(eye, lines), {luminance_weights}, panel})};
     }
     return worse;
 }

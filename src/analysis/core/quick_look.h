@@ -28,17 +28,14 @@ struct SeenAtOnce {
 /// Returns that width; nothing if the camera is inside the display, or if too little light gets through.
 std::optional<SeenAtOnce> seen_at_once(const Display&, const Geometry&);
 
-/// Returns the width of the viewing zone at the camera's distance, E p'/g, mm; NaN where both eyes see the same.
-double viewing_zone_mm(const Display&, const Geometry&);
+/// Returns the width of the viewing zone at the camera's distance, mm; NaN where both eyes see the same.
+double zone_before_camera_mm(const Display&, const Geometry&);
 
-/// The crosstalk of that eye of a viewer in front of the screen's middle, at the camera's distance, which has more of it.
-struct BetweenEyes {
-    TracedAndTheory percent;  // infinite: the eye sees only what is intended for the other one
-};
-/// Returns the crosstalk between the eyes as docs/measures.md, "Crosstalk", defines it, with elemental images made for that
-/// distance, by fewer lines of sight and only of those that meet a lens. Nothing if both eyes do not fit into the viewing zone, if
-/// no light gets through, or if rounding decides on it.
-std::optional<BetweenEyes> between_eyes(const Display&, const Geometry&);
+/// Returns the crosstalk of that eye of a viewer in front of the screen's middle, at the camera's distance, which has more of it,
+/// %: as docs/measures.md, "Crosstalk", defines it, with elemental images made for that distance, by fewer lines of sight and only
+/// of those that meet a lens. Infinite: the eye sees only what is intended for the other one. Nothing if both eyes do not fit into
+/// the viewing zone, if no light gets through, or if rounding decides on it.
+std::optional<TracedAndTheory> between_eyes_percent(const Display&, const Geometry&);
 
 /// The width of the light of the panel point on a lens's axis, in images of a panel pixel at the same depth. Light that is not
 /// evenly spread has the width of an even spread of the same variance, sqrt(12) sigma.

@@ -82,8 +82,8 @@ bool by_aberration(const TracedAndTheory& percent) {
 /// Returns the widest stop with which aberration no longer mixes what the eyes see.
 std::optional<Stop> stop_against_mixing(const Display& d, const Geometry& g) {
     return widest_stop(d, g, [](const Display& stopped, double) {
-        const std::optional<BetweenEyes> mixed = between_eyes(stopped, resolve(stopped));
-        return mixed && !by_aberration(mixed->percent);
+        const std::optional<TracedAndTheory> mixed = between_eyes_percent(stopped, resolve(stopped));
+        return mixed && !by_aberration(*mixed);
     });
 }
 
@@ -199,11 +199,11 @@ std::string percent_text(double percent) {
 }
 
 /// Returns the text on errors of assembly that mix what two eyes should see; nothing if they are not the cause.
-std::optional<std::string> on_errors(const Display& d, const BetweenEyes& mixed, const std::string& eyes) {
+std::optional<std::string> on_errors(const Display& d, const TracedAndTheory& mixed, const std::string& eyes) {
     const auto mended = [&](const Display& changed) -> std::optional<double> {
-        const std::optional<BetweenEyes> left = valid(changed) ? between_eyes(changed, resolve(changed)) : std::nullopt;
-        if (!left || mixed.percent.traced - left->percent.traced <= most_more_percent) return {};
-        return left->percent.traced;
+        const std::optional<TracedAndTheory> left = valid(changed) ? between_eyes_percent(changed, resolve(changed)) : std::nullopt;
+        if (!left || mixed.traced - left->traced <= most_more_percent) return {};
+        return left->traced;
     };
     const std::optional<double> without = has_errors(d.errors) ? mended(without_errors(d)) : std::nullopt;
     if (!without) return {};
@@ -213,7 +213,7 @@ std::optional<std::string> on_errors(const Display& d, const BetweenEyes& mixed,
     return fmt::format(
         "errors of assembly ([errors]) mix what {} should see: crosstalk is {}, and {} without them. Align the array "
         "better{}",
-        eyes, percent_text(mixed.percent.traced), percent_text(*without),
+        eyes, percent_text(mixed.traced), percent_text(*without),
         if_known ? fmt::format(", or make content for the array as built (--set 'content.made_for=\"built\"'), which "
                                "leaves {}",
                                percent_text(*if_known))
@@ -222,18 +222,18 @@ std::optional<std::string> on_errors(const Display& d, const BetweenEyes& mixed,
 
 /// Judges whether a viewer's eyes see different views.
 std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const SeenAtOnce& seen) {
-    const double eye = camera_distance_mm(d), apart = usual_eye_separation_mm, zone = viewing_zone_mm(d, g);
+    const double eye = camera_distance_mm(d), apart = usual_eye_separation_mm, zone = zone_before_camera_mm(d, g);
     const std::string eyes = fmt::format("two eyes {:g} mm apart, {:.4g} mm from the panel,", apart, eye);
     const std::string best = fmt::format(
         "only {} mm wide there, and beyond it the lenses show their neighbours' images. Twice the eyes' distance would be best, as "
         "from {} mm on",
         digits(zone), digits(eye * 2 * apart / zone));
     if (zone < apart && eye >= nearest_sight_mm) return fmt::format("{} do not fit into the viewing zone: it is {}", eyes, best);
-    const std::optional<BetweenEyes> mixed = between_eyes(d, g);
-    if (!mixed || !(mixed->percent.traced > most_mended_percent)) return {};
-    const auto [traced, in_theory] = mixed->percent;
+    const std::optional<TracedAndTheory> mixed = between_eyes_percent(d, g);
+    if (!mixed || !(mixed->traced > most_mended_percent)) return {};
+    const auto [traced, in_theory] = *mixed;
     if (std::optional<std::string> errors = on_errors(d, *mixed, eyes)) return errors;
-    if (by_aberration(mixed->percent))
+    if (by_aberration(*mixed))
         return fmt::format(
             "the lenses' aberration mixes what {} should see: crosstalk is {}, and {} in theory without aberration. {}", eyes,
             percent_text(traced), percent_text(in_theory), stop_remedy(d, stop_against_mixing(d, g)));

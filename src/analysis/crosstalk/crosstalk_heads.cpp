@@ -143,9 +143,7 @@ void add_eyes(const BothEyes& found, const BothEyes& theory, const std::string& 
 }  // namespace
 
 void between_eyes(const Subject& s, Eyes& eyes, Result& result) {
-    // The viewing zone is E p'/g wide.
-    const double apart = s.options().eye_distance_mm,
-                 zone_mm = eyes.eye_mm * image_along_eyes_mm(s.display(), s.geometry()) / s.geometry().gap_mm;
+    const double apart = s.options().eye_distance_mm, zone_mm = viewing_zone_mm(s.display(), s.geometry(), eyes.eye_mm);
     if (eyes.line == 1)
         return leave_out(fmt::format("{}: both eyes see the same", same_from_both_sides(s.geometry().lattice)), eyes, result);
     if (apart > zone_mm)

@@ -32,6 +32,8 @@ double image_along_eyes_mm(const Display& d, const Geometry& g) {
     return theory(d, g).along[0].elemental_pitch_mm / across_share(g.lattice);
 }
 
+double viewing_zone_mm(const Display& d, const Geometry& g, double eye_mm) { return eye_mm * image_along_eyes_mm(d, g) / g.gap_mm; }
+
 PixelViews::PixelViews(const Subject& s, const MeantPanel& pixels) : step_(s.display().panel.pixel_pitch_mm / s.geometry().gap_mm) {
     // Images are a whole number of pixels wide if images and pixels come apart by less than a pixel over the whole array.
     const double across = image_along_eyes_mm(s.display(), s.geometry()) / s.display().panel.pixel_pitch_mm,

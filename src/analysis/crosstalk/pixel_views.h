@@ -37,4 +37,7 @@ class PixelViews {
 /// Returns the width of an elemental image along a row of the panel, mm: p', over cos(slant) of strips.
 double image_along_eyes_mm(const Display&, const Geometry&);
 
+/// Returns the width of the viewing zone, E p'/g along a row of the panel, mm, at `eye_mm` = E from the rear principal plane.
+double viewing_zone_mm(const Display&, const Geometry&, double eye_mm);
+
 }  // namespace lfdsim

@@ -50,7 +50,7 @@ bool NumberedPictures::finished(std::int64_t n) const {
         Metadata about = read_metadata(path);
         const Json made_of = Json::parse(about["shown"], nullptr, false);
         return about["Software"] == software && resumed(about["command"]) == resumed(command_line()) &&
-               about["display"] == display(n) && hold(made_of) && made_of.size() >= shown.size() &&
+               about["display"] == display(n) && files_unchanged(made_of) && made_of.size() >= shown.size() &&
                std::equal(shown.begin(), shown.end(), made_of.begin());
     } catch (const InputError&) {
         return false;  // no picture

@@ -104,7 +104,8 @@ bool ResultFolder::has(const Measure& measure) const {
 std::vector<std::string> ResultFolder::different_settings(const Json& theirs) const {
     std::vector<std::string> keys;
     for (const auto& [key, value] : settings_.items())
-        if (key == "files" ? !hold(theirs.value(key, Json::array())) : theirs.value(key, Json()) != value) keys.push_back(key);
+        if (key == "files" ? !files_unchanged(theirs.value(key, Json::array())) : theirs.value(key, Json()) != value)
+            keys.push_back(key);
     return keys;
 }
 

@@ -53,7 +53,7 @@ Json stamps(const std::vector<std::string>& files) {
     return all;
 }
 
-bool hold(const Json& stamps) {
+bool files_unchanged(const Json& stamps) {
     return stamps.is_array() && std::all_of(stamps.begin(), stamps.end(), [](const Json& one) {
                return one.is_object() && one.contains("file") && one["file"].is_string() &&
                       one == stamp(one["file"].get<std::string>());

@@ -17,7 +17,7 @@ std::vector<std::string> named_files(Display, bool content);
 /// Returns the stamps of files, each once.
 Json stamps(const std::vector<std::string>& files);
 /// Returns whether each of the files is as it was when its stamp was taken; false for what is no list of stamps.
-bool hold(const Json& stamps);
+bool files_unchanged(const Json& stamps);
 
 /// Returns the settings of a ResultFolder for the measures of a subject; `version` is the program's.
 Json run_settings(const Subject&, const std::string& version);
