@@ -5,6 +5,7 @@
 #include "display/colour.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/gpu.h"
+#include "engine/devices/threads.h"
 #include "engine/estimator/choice.h"
 #include "engine/estimator/gaussian_parts.h"
 #include "engine/estimator/panel_planes.h"
@@ -137,7 +138,7 @@ bool timed(Work& work, const RenderOptions& options, const Run& run) {
 Rendering render(Work& work, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
     timed(work, options, [&](Rendering& result) -> std::optional<Done> {
         result.kernel = kernel_name;
-        result.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+        result.threads = threads_used(options.threads);
         return render_on_cpu(kernel, result.threads, work, job);
     });
     return std::move(work.result);
@@ -162,7 +163,7 @@ std::optional<Rendering> render_points_on_gpu(Work& work, const ChosenDevice& de
 Rendering render_chosen(EstimatorChoice& choice, const char* kernel_name, Kernel kernel, const RenderOptions& options, Job& job) {
     timed(choice.work(), options, [&](Rendering& result) -> std::optional<Done> {
         result.kernel = kernel_name;
-        result.threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+        result.threads = threads_used(options.threads);
         return render_chosen(kernel, result.threads, choice, job);
     });
     return std::move(choice.work().result);

@@ -29,7 +29,7 @@ def limited(arguments, *limits, nobody=False, seconds=30):
                              stdin=subprocess.DEVNULL, capture_output=True, text=True, env={**os.environ, "LFDSIM_DEVICE": "cpu"})
     except subprocess.TimeoutExpired:
         return None, "it hung"
-    return run.returncode, run.stderr
+    return run.returncode, run.stdout + run.stderr
 
 
 # Every kernel and estimator, lenses in rows, as strips and each by itself, few samples and many, on a stack of 1 MiB.
@@ -59,6 +59,8 @@ if os.getuid() != 0 or subprocess.run(as_nobody).returncode == 0:
                         "render tiny.toml -o out.png --panel-image panel.png"]:
             code, said = limited(command, (resource.RLIMIT_NPROC, most), nobody=True)
             checks.that(code == 0, f"{most} threads: {command}: {code} {said}")
+    code, said = limited("render tiny.toml -o out.png", (resource.RLIMIT_NPROC, 1), nobody=True)
+    checks.that(", 1 thread;" in said, f"no thread besides the calling one: {said}")
     code, said = limited("check tiny.toml", (resource.RLIMIT_NPROC, 1), (resource.RLIMIT_STACK, 128 << 10), nobody=True)
     checks.that(code == 1 and "ulimit -s" in said, f"a small stack, and no thread: {code} {said}")
     code, said = limited("view tiny.toml", (resource.RLIMIT_NPROC, 1), nobody=True)

@@ -8,6 +8,7 @@
 #include "cli/program/machine.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/memory.h"
+#include "engine/devices/threads.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -79,7 +80,7 @@ BenchSettings settings_of(const BenchArguments& args) {
         require_picture_memory(d.camera.resolution[0], d.camera.resolution[1], 2 * texel_bytes(d));
     });
     faults.report();
-    s.threads = args.work.threads() > 0 ? args.work.threads() : tbb::info::default_concurrency();
+    s.threads = threads_used(args.work.threads());
     return s;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <semaphore>
 #include <thread>
 #include <vector>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t stack_bytes = 4 << 20;  // of a worker of TBB
 constexpr int spare = 3;                      // for a picture made ahead, writers of files, and the process that reads a model
+int thread_limit = std::numeric_limits<int>::max();  // set by use_only_threads_to_be_had()
 
 /// Returns the number of threads of this process, as the system counts them.
 std::ptrdiff_t tasks() {
@@ -59,9 +61,11 @@ int threads_to_be_had(int wanted) {
 void use_only_threads_to_be_had() {
     const int wanted = tbb::info::default_concurrency() - 1 + spare, had = threads_to_be_had(wanted);
     if (had >= wanted) return;
+    thread_limit = 1 + std::max(had - spare, 0);
     // The limit is never destroyed: when it ends, TBB starts threads.
-    static_cast<void>(
-        new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(1 + std::max(had - spare, 0))));
+    static_cast<void>(new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(thread_limit)));
 }
+
+int threads_used(int wanted) { return std::min(wanted > 0 ? wanted : tbb::info::default_concurrency(), thread_limit); }
 
 }  // namespace lfdsim

@@ -11,4 +11,7 @@ int threads_to_be_had(int wanted);
 /// there are enough nothing changes; where there are none the calling thread does all the work.
 void use_only_threads_to_be_had();
 
+/// Returns the number of threads that work for `wanted` ones, 0 meaning one per processor, runs on.
+int threads_used(int wanted);
+
 }  // namespace lfdsim
