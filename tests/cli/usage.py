@@ -50,7 +50,7 @@ tiny = (program.folder / "tiny.toml").read_text()
 for line, said in (("gap_mm = 3,2", "slip.toml:15:11: gap_mm: the decimal sign is a point; write 3.2"),
                    ("gap_mm = 3.2 mm", "gap_mm: numbers carry no unit, array.gap_mm is in mm; write 3.2"),
                    ("gap_mm = .5  # half", "gap_mm: numbers have digits on both sides of a point and no leading zeros; write 0.5"),
-                   ("gap_mm = 3.2 in", "array.gap_mm is in mm; write the number in it"), ("count = 11, 6", "count: a list is written in brackets: [11, 6]")):
+                   ("gap_mm = 3.2 in", "array.gap_mm is in mm; write the number in it"), ("count = 11, 6", "count: a list is written in brackets, with commas: [11, 6]")):
     key = line.split(" =")[0]
     (program.folder / "slip.toml").write_text("\n".join(line if old.startswith(f"{key} =") else old for old in tiny.split("\n")))
     checks.refused(program, line, "check slip.toml", said)

@@ -71,18 +71,23 @@ std::string with_unit(std::string_view path, const std::string& number, std::str
     return fmt::format("numbers carry no unit, {} is in {}; write {}", path, unit, same ? number : "the number in it");
 }
 
-/// Returns the numbers of a text such as "1,5" or "11, 6"; nothing unless all of it is decimals separated by commas.
+/// Returns the numbers of a text such as "1,5", "11 6" or "[96x60]"; nothing unless all of it is decimals and what may separate
+/// them.
 std::optional<std::vector<std::string>> decimals(std::string_view text) {
+    if (text.starts_with('[')) text.remove_prefix(1);
+    if (text.ends_with(']')) text.remove_suffix(1);
+    constexpr std::string_view separators = ", ;x";
     std::vector<std::string> all;
-    for (std::size_t start = 0;;) {
-        const std::size_t comma = std::min(text.find(',', start), text.size());
+    for (std::size_t start; (start = text.find_first_not_of(separators)) != text.npos;) {
+        text.remove_prefix(start);
+        const std::size_t end = std::min(text.find_first_of(separators), text.size());
         std::string_view rest;
-        const auto one = decimal(trimmed(text.substr(start, comma - start)), rest);
+        const auto one = decimal(text.substr(0, end), rest);
         if (!one || !rest.empty()) return {};
         all.push_back(*one);
-        if (comma == text.size()) return all;
-        start = comma + 1;
+        text.remove_prefix(end);
     }
+    return all.empty() ? std::nullopt : std::optional(std::move(all));
 }
 
 /// Whether a decimal lacks digits beside its point or has leading zeros (".6", "6.", "007"), which TOML refuses. Other decimals
@@ -127,7 +132,8 @@ std::string text_hint(std::string_view value) {
 }
 
 std::string list_hint(std::string_view value) {
-    if (const auto all = decimals(value)) return fmt::format("a list is written in brackets: [{}]", fmt::join(*all, ", "));
+    if (const auto all = decimals(value))
+        return fmt::format("a list is written in brackets, with commas: [{}]", fmt::join(*all, ", "));
     return "";
 }
 
