@@ -18,8 +18,8 @@ std::array<double, 2> half_panel_mm(const Panel& panel, double turn_deg) {
     return {w * c + h * s, w * s + h * c};
 }
 
-/// Returns the least number of lenses that cover the panel, whose middle is -offset from the array's (docs/model.md, "Lens array
-/// and surround", "Extent").
+}  // namespace
+
 std::array<std::int64_t, 2> covering_count(const Panel& panel, const LensArray& array) {
     const double c = std::cos(array.turn_deg() * degree), s = std::sin(array.turn_deg() * degree);
     const auto [x, y] = array.offset_mm;
@@ -32,8 +32,6 @@ std::array<std::int64_t, 2> covering_count(const Panel& panel, const LensArray& 
     if (is_strips(array)) return {columns, 1};
     return {columns, whole(array.lattice == LatticeKind::hexagon ? 1 + (2 * half_y - px / std::sqrt(3)) / py : 2 * half_y / py)};
 }
-
-}  // namespace
 
 bool is_staggered(const LensArray& array) { return array.lattice == LatticeKind::hexagon || array.lattice == LatticeKind::brick; }
 

@@ -44,6 +44,10 @@ double strip_length_mm(const Panel&, double turn_deg);
 /// along y' is their length over the panel.
 std::array<double, 2> spacing_mm(const Panel&, const LensArray&);
 
+/// Returns the least number of lenses along x' and y', about the array's middle, that cover the panel (docs/model.md, "Lens array
+/// and surround", "Extent"); of strips {n, 1}.
+std::array<std::int64_t, 2> covering_count(const Panel&, const LensArray&);
+
 /// Returns the number of lenses along x' and y': array.count, or the smallest that covers the panel (docs/model.md, "Lens array
 /// and surround"). At most 1e10, also for unbounded sizes.
 std::array<std::int64_t, 2> lens_count(const Panel&, const LensArray&);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "../engine/pictures.h"
+#include "analysis/core/screen_parts.h"
 #include "analysis/uniformity/efficiency.h"
 #include "analysis/uniformity/luminance_theory.h"
 #include "analysis/uniformity/uniformity.h"
@@ -227,6 +228,28 @@ TEST(Uniformity, OfAMirrorImageIsTheSame) {
             const Estimate one = on_screen(d, eye).uniformity_percent(false),
                            other = on_screen(mirrored, eye).uniformity_percent(false);
             EXPECT_NEAR(one.value, other.value, 1.5 * (one.error + other.error)) << int(lattice) << " " << pitch;
+        }
+}
+
+// A sheet wider than the panel is measured as one that ends with it, wherever it has been shifted.
+TEST(Uniformity, LensesThatAreNotSeenDoNotCount) {
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::hexagon, LatticeKind::brick, LatticeKind::strips})
+        for (const double shift : {0., 20.}) {
+            Display d = wide_panel(ideal_example());
+            d.array.lattice = lattice;
+            d.array.count.reset();
+            d.errors.shift_mm = {shift, 0};
+            const ScreenParts covering(d, resolve(d), 16);
+            const auto [across, up] = lens_count(d.panel, d.array);
+            d.array.count = {across + 200, lattice == LatticeKind::strips ? 1 : up + 100};
+            const ScreenParts wide(d, resolve(d), 16);
+            const std::int64_t more = 2 * std::int64_t(std::ceil(shift / d.array.pitch_mm[0]));
+            EXPECT_NEAR(wide.columns(), covering.columns(), double(more)) << int(lattice);
+            EXPECT_NEAR(wide.rows(), covering.rows(), double(more)) << int(lattice);
+            EXPECT_EQ(wide.block(0).first[0], 100 - more / 2);
+            if (shift > 0) continue;
+            for (const std::size_t k : {0, 1}) EXPECT_NEAR(wide.size_mm()[k], covering.size_mm()[k], 1e-9) << int(lattice);
+            EXPECT_EQ(wide.middle().lenses(), covering.middle().lenses()) << int(lattice);
         }
 }
 

@@ -23,7 +23,7 @@ int screen_luminance_parts(const Display& d, const Geometry& g) { return ScreenP
 
 ScreenLuminance screen_luminance(const EyeRays& rays, const Display& d, const Geometry& g, const Vec3d& eye, Parts& parts) {
     const ScreenParts all(d, g, most_parts_along);
-    ScreenLuminance screen{all.columns(), all.rows(), {}};
+    ScreenLuminance screen{all.columns(), all.rows(), all.size_mm(), {}};
     screen.parts.resize(std::size_t(all.count()));
     const int rays_each = rays_a_part / independent_sets * rays.more_for(eye);
     parts.run(all.count(), [&](int part) {

@@ -41,9 +41,10 @@ void add_screen(Result& result, const ScreenLuminance& screen, const Subject& s,
     const std::string few = "none of the areas in which luminance is compared has half of its area in front of the panel";
     if (std::isnan(percent.value)) result.note("screen.uniformity_percent", few);
     if (std::isnan(inside.value)) result.note("screen.uniformity_inner_percent", few);
+    const auto [width, height] = screen.size_mm;
     result.maps.push_back({"uniformity_screen", "Luminance of a white screen, seen on axis", "x along the array, mm", "y, mm",
-                           "of the panel's", -g.array_width_mm / 2, g.array_width_mm / 2, -g.array_height_mm / 2,
-                           g.array_height_mm / 2, screen.columns, screen.rows, screen.values(), 0, greatest > 0 ? greatest : 1});
+                           "of the panel's", -width / 2, width / 2, -height / 2, height / 2, screen.columns, screen.rows,
+                           screen.values(), 0, greatest > 0 ? greatest : 1});
     DataTable table = DataTable::of_rows("uniformity_screen", {"column", "row", "luminance"});
     for (int k = 0; k < screen.columns * screen.rows; ++k)
         table.add_row({double(k % screen.columns), double(k / screen.columns), screen.values()[std::size_t(k)]});

@@ -14,6 +14,7 @@ namespace lfdsim {
 /// the array as equal as lenses allow, row 0 at the top. Only what is in front of the panel counts.
 struct ScreenLuminance {
     int columns, rows;
+    std::array<double, 2> size_mm;  // of all parts together
     /// The luminance of a block.
     struct LuminancePart {
         Sums light{};          // mean luminance by each set of lines of sight; 0 if nothing of it is in front of the panel

@@ -102,16 +102,15 @@ void add_colour_of_screen(const ColouredWhite& white, const Subject& s, double d
         light[std::size_t(part)] = light_of_block(white, s, eye, screen, screen.block(part), lines, independent_sets * part);
     });
     const ColourSpread spread = spread_on_screen(light, lenses);
-    const Geometry& g = s.geometry();
+    const auto [width, height] = screen.size_mm();
     add_spread(result, "screen", "over the screen, on axis", spread, "no light of the screen is seen on axis");
     Json& json = result.figures["colour"];
     json["screen_uv"] = numbers_json({spread.together[0], spread.together[1]});
-    json["part_mm"] = {g.array_width_mm / screen.columns(), g.array_height_mm / screen.rows()};
+    json["part_mm"] = {width / screen.columns(), height / screen.rows()};
     json["dark_parts"] = spread.dark;
     result.maps.push_back({"uniformity_colour", "Difference of colour over a white screen, seen on axis", "x along the array, mm",
-                           "y, mm", "distance in u', v'", -g.array_width_mm / 2, g.array_width_mm / 2, -g.array_height_mm / 2,
-                           g.array_height_mm / 2, screen.columns(), screen.rows(), spread.distance, 0,
-                           std::max(0.004, spread.largest.value + spread.largest.error)});
+                           "y, mm", "distance in u', v'", -width / 2, width / 2, -height / 2, height / 2, screen.columns(),
+                           screen.rows(), spread.distance, 0, std::max(0.004, spread.largest.value + spread.largest.error)});
     DataTable table = DataTable::of_rows("uniformity_colour", {"column", "row", "u_prime", "v_prime", "delta_uv"});
     for (int k = 0; k < screen.count(); ++k) {
         const auto [u, v] = spread.parts[std::size_t(k)];
