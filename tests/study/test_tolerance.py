@@ -114,6 +114,11 @@ class Budgets(unittest.TestCase):
         scale, how = tolerances.allowed_scale({0.5: 0.25, 1: 1, 2: 4}, 0.01)
         self.assertAlmostEqual(scale, 0.1)
         self.assertIn("extrapolated", how)
+        # Nothing is allowed that is known to lose more.
+        for at in ({0.5: 10, 1: 30, 2: 50}, {0.5: 10, 1: 8, 2: 50}):
+            scale, how = tolerances.allowed_scale(at, 0.01)
+            self.assertTrue(np.isnan(scale))
+            self.assertEqual(how, "less than 0.5 of its size, which loses more; state a smaller size to measure it")
 
     def test_nothing_is_guessed_beyond_what_was_possible(self):
         self.assertEqual(tolerances.allowed_scale({0.5: 0.0, 1: 0.1, 2: 0.2}, 1)[0], 2)
@@ -129,8 +134,8 @@ class Budgets(unittest.TestCase):
         self.assertEqual(how, "or more: larger ones were not measured (at 2: 3 of 5 draws impossible, most often because: too far aside)")
         self.assertAlmostEqual(tolerances.allowed_scale({0.5: 0.1, 1: 0.4, 2: np.inf}, 0.2, cut)[0], np.sqrt(0.5))
         scale, how = tolerances.allowed_scale({0.5: 2.0, 1: np.inf, 2: np.inf}, 1, {1.0: "all draws impossible"})
-        self.assertEqual(scale, 0.5)
-        self.assertIn("too large; nothing smaller was measured", how)
+        self.assertTrue(np.isnan(scale))
+        self.assertIn("less than 0.5 of its size, which loses more; state a smaller size to measure it (at 1: all draws impossible)", how)
 
     def test_a_figure_that_the_display_without_errors_lacks(self):
         layout = errors.Layout({"errors.gap_mm": SD}, 4, 4)

@@ -302,7 +302,7 @@ def _why_none(reasons: "pandas.Series", lost: np.ndarray) -> str:
 
 
 def allowed_scale(at: dict[float, float], amount: float, cut: Mapping[float, str] | None = None) -> tuple[float, str]:
-    """Where the loss is `amount`, if it is a power of the scale between two measured ones; and how that is known.
+    """Where the loss is `amount`, if it is a power of the scale between two measured ones; and how that is known. NaN where it is not.
 
     Towards small errors the power of the least two holds on; towards large ones, where displays become impossible, nothing is guessed.
     `at`: the loss by scale, infinite where it was not measured; `cut`: why it was not."""
@@ -317,13 +317,19 @@ def allowed_scale(at: dict[float, float], amount: float, cut: Mapping[float, str
         return known[-1], f"or more: larger ones were not measured{why}" if why else "or more: all that was tried keeps it"
     high = min(s for s in known if at[s] > amount and all(at[t] > amount for t in known if t > s))
     below = [s for s in known if s < high]
-    if not below and len(known) == 1:
-        return high, f"too large; nothing smaller was measured{why}"
-    low, how = (max(below), "between what was tried") if below else (high, EXTRAPOLATED)
-    if not below:
-        high = known[1]
-    if at[low] <= 0 or at[high] <= at[low]:
-        return low, "or less: nothing smaller was tried" if not below else f"or a little more: at {high:g} it loses more"
+    if below:
+        low = max(below)
+        if at[low] <= 0 or at[high] <= at[low]:
+            return low, f"or a little more: at {high:g} it loses more"
+        return _power(at, low, high, amount), "between what was tried"
+    if len(known) > 1 and at[high] < at[known[1]]:
+        scale = _power(at, high, known[1], amount)
+        if scale >= LEAST_EXTRAPOLATED * high:
+            return scale, EXTRAPOLATED
+    return float("nan"), f"less than {high:g} of its size, which loses more; state a smaller size to measure it{why}"
+
+
+def _power(at: dict[float, float], low: float, high: float, amount: float) -> float:
+    """The scale at which a loss is `amount` that is a power of the scale through two of `at`."""
     power = np.log(at[high] / at[low]) / np.log(high / low)
-    scale = float(low * (amount / at[low]) ** (1 / power))
-    return (low, "or less: nothing smaller was tried") if scale < LEAST_EXTRAPOLATED * low else (scale, how)
+    return float(low * (amount / at[low]) ** (1 / power))

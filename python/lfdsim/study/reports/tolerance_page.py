@@ -81,7 +81,8 @@ def summary(found: Tolerance, percent: float) -> list[str]:
         lines += ["", f"Budget for {first['loss']}: it may {WAYS[first['way']]} {first['allowed']:g}"]
         for _, line in of_it.iterrows():
             size = "" if line["error"] == ALL else f", {_sizes(line)}"
-            lines.append(f"  {line['error']}: {_scale(line)} of its size{size}; {line['how']}")
+            known = f"{_scale(line)} of its size{size}; " if _scale(line) else ""
+            lines.append(f"  {line['error']}: {known}{line['how']}")
         lines += [f"  {reason}"] if (reason := _too_few(of_it, percent)) else []
     return lines
 
@@ -126,7 +127,9 @@ def _too_few(lines: pd.DataFrame, percent: float) -> str:
 
 
 def _scale(line: pd.Series) -> str:
-    """The allowed scale and its interval, whose bounds are not known beyond the scales tried."""
+    """The allowed scale and its interval, whose bounds are not known beyond the scales tried; nothing where the scale is not known."""
+    if np.isnan(line["allowed scale"]):
+        return ""
     low, high = line["allowed scale from"], line["allowed scale to"]
     tried = [float(name.removeprefix("at ")) for name in line.index if name.startswith("at ")]
     bounds = f"{low:.3g}{' or less' * (low == min(tried))} to {high:.3g}{' or more' * (high == max(tried))}"
@@ -134,7 +137,7 @@ def _scale(line: pd.Series) -> str:
 
 
 def _sizes(line: pd.Series) -> str:
-    return "" if line["error"] == ALL else ", ".join(f"{x:.4g}" for x in np.atleast_1d(line["allowed size"]))
+    return "" if line["error"] == ALL or np.isnan(line["allowed scale"]) else ", ".join(f"{x:.4g}" for x in np.atleast_1d(line["allowed size"]))
 
 
 @plots.drawn
