@@ -133,6 +133,21 @@ TEST(Verdicts, ADiffuserIsWeakenedAlongTheAxisAtFault) {
     EXPECT_THAT(advice(d, resolve(d), theory(d, resolve(d))), IsEmpty());
 }
 
+// Most of what a wide diffuser turns aside misses the array: its angle falls faster than what an eye sees at once.
+TEST(Verdicts, AWideDiffuserIsWeakenedEnough) {
+    for (const double degrees : {60., 40., 20.}) {
+        Display d = small_display();
+        d.panel.pixels = {240, 150};
+        d.array.count = {20, 12};
+        d.diffuser->angle_deg = {degrees, 0.98};
+        const std::vector<std::string> told = verdicts_of(d);
+        ASSERT_THAT(told, Contains(HasSubstr("views do not separate")));
+        d.diffuser->angle_deg = advised_angles(told[0]);
+        EXPECT_EQ(d.diffuser->angle_deg[1], 0.98);
+        EXPECT_THAT(verdicts_of(d), Not(Contains(HasSubstr("views do not separate")))) << degrees;
+    }
+}
+
 // Before a near eye lenses that are focused on the panel are no remedy: they must image it to the eye.
 TEST(Verdicts, ANearEyeNeedsThePanelsImage) {
     Display d = small_display();

@@ -131,25 +131,27 @@ std::string focus_remedy(Display d, const Geometry& g, const Theory& t, double m
 
 /// Returns whether an eye sees at most half of an elemental image at once.
 bool separates(const SeenAtOnce& seen) { return seen.width_mm.traced <= most_seen_share * seen.image_mm; }
+bool separates(const Display& d, const Geometry& g) {
+    const std::optional<SeenAtOnce> seen = seen_at_once(d, g);
+    return seen && separates(*seen);
+}
 
 /// Returns the widest stop with which views separate.
 std::optional<Stop> stop_against_overlap(const Display& d, const Geometry& g) {
-    return widest_stop(d, g, [](const Display& stopped, double) {
-        const std::optional<SeenAtOnce> seen = seen_at_once(stopped, resolve(stopped));
-        return seen && separates(*seen);
-    });
+    return widest_stop(d, g, [](const Display& stopped, double) { return separates(stopped, resolve(stopped)); });
 }
 
-/// Returns the remedy for views that a diffuser mixes: a diffuser with an angle smaller by `factor` along the line of the eyes. In
-/// a rotated array both angles mix views, so both are reduced where one is not enough.
+/// Returns the remedy for views that a diffuser mixes: an angle smaller by `factor` along the line of the eyes, or by more where
+/// part of the light misses the array. In a rotated array both angles mix views, so both are reduced where one is not enough.
 std::string weaker_diffuser(Display d, const Geometry& g, double factor) {
     const double cosine = std::abs(g.lattice.cos_turn), sine = std::abs(g.lattice.sin_turn);
     const std::size_t main = g.lattice.strips && cosine < sine ? 1 : 0;
     const std::array<double, 2> given = d.diffuser->angle_deg;
     std::array<double, 2>& angle = d.diffuser->angle_deg;
     angle[main] *= factor;
-    const std::optional<SeenAtOnce> left = seen_at_once(d, g);
-    if (std::min(cosine, sine) > 1e-9 && !(left && separates(*left))) angle[1 - main] *= factor;
+    const bool both = std::min(cosine, sine) > 1e-9;
+    if (both && !separates(d, g)) angle[1 - main] *= factor;
+    for (int k = 0; k < 16 && !separates(d, g); ++k) angle[main] *= 0.8, angle[1 - main] *= both ? 0.8 : 1;
     return fmt::format(
         "The diffuser mixes them ({:.4g} x {:.4g} degrees); use a weaker one (--set 'diffuser.angle_deg=[{:.3g}, {:.3g}]')",
         given[0], given[1], angle[0], angle[1]);
@@ -176,9 +178,8 @@ std::string separation_remedy(const Display& d, const Geometry& g, const Theory&
     }
     if (seen.through_apertures_mm > most) return focus_remedy(d, g, t, most);
     if (d.diffuser && seen.width_mm.theory > most) {
-        const double of_diffuser = seen.width_mm.theory - seen.through_apertures_mm,
-                     scale = std::clamp((0.9 * most - seen.through_apertures_mm) / of_diffuser, 0.05, 1.);
-        return weaker_diffuser(d, g, scale);
+        const double of_apertures = seen.through_apertures_mm, of_diffuser = seen.width_mm.theory - of_apertures;
+        return weaker_diffuser(d, g, std::clamp((0.9 * most - of_apertures) / of_diffuser, 0.05, 1.));
     }
     return "The lenses' aberration is the cause. " + stop_remedy(d, stop_against_overlap(d, g));
 }
