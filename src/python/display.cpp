@@ -1,5 +1,6 @@
 #include "files/description/display_file.h"
 
+#include "base/printable.h"
 #include "display/keys.h"
 #include "files/description/nearest.h"
 #include "python/parts.h"
@@ -194,7 +195,7 @@ void add_display(nb::module_& m) {
         .def("__getstate__", state)
         .def("__setstate__", [](Display& display, const State& of) { new (&display) Display(restored(of)); })
         .def("with_model", with_model, nb::arg("model"))
-        .def("text", write_display)
+        .def("text", [](const Display& display) { return printable_lines(write_display(display)); })
         .def("values", values)
         .def("drawings", drawings);
     m.def("known", known, nb::arg("path"));

@@ -1,4 +1,6 @@
 // Texts and STL files that Assimp would misread, and are read rightly.
+#include "image/formats/image_file.h"
+#include "refused.h"
 #include "seen_square.h"
 
 #include <cstdint>
@@ -84,6 +86,67 @@ TEST(Stl, ColoursOfFacets) {
     EXPECT_EQ(shown(green, 31, 31 << 10), "red blue");
     EXPECT_EQ(shown(green, 0, 0), "green green");
     EXPECT_EQ(shown("VisCAM", 0x8000 | 31 << 10, 0x8000 | 31), "red blue");
+}
+
+// Colours of vertices are numbers of 0 to 1 or codes of 0 to 255; those of faces are not shown.
+TEST(Off, Colours) {
+    Folder folder;
+    const auto vertices = [](const std::string& colour) {
+        return "COFF\n4 1 0\n-1 -1 0 " + colour + "\n1 -1 0 " + colour + "\n1 1 0 " + colour + "\n-1 1 0 " + colour +
+               "\n4 0 1 2 3\n";
+    };
+    const fs::path numbers = folder.write("n.off", vertices("0.6 0.2 0.4 1")),
+                   codes = folder.write("c.off", vertices("153 51 102 255"));
+    EXPECT_NEAR(photo(codes).at(40, 30)[0], photo(numbers).at(40, 30)[0], 1e-5);
+    EXPECT_THAT(info(*load_model(codes)).notes, testing::IsEmpty());
+    const std::string square = "-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3";
+    for (const char* header : {"OFF\n4 1 0\n", "OFF\n# of faces\n4 1 0\n"}) {
+        EXPECT_THAT(info(*load_model(folder.write("f.off", header + square + "\n"))).notes, testing::IsEmpty()) << header;
+        for (const char* colour : {" 255 0 0\n", " 1. 0. 0.\n", " 3\n"})
+            EXPECT_THAT(info(*load_model(folder.write("f.off", header + square + colour))).notes,
+                        testing::ElementsAre("colours of OFF faces are not shown"))
+                << header << colour;
+    }
+}
+
+TEST(X3d, ColoursOfFacesAreNoted) {
+    Folder folder;
+    const auto notes = [&](const std::string& per_vertex) {
+        return info(*load_model(folder.write(
+                        "f.x3d", "<?xml version=\"1.0\"?><X3D><Scene><Shape><IndexedFaceSet coordIndex=\"0 1 2 -1 0 2 3 -1\" " +
+                                     per_vertex +
+                                     "><Coordinate point=\"-1 -1 0 1 -1 0 1 1 0 -1 1 0\"/><Color color=\"1 0 0 0 1 0 "
+                                     "0 1 0 1 0 0\"/></IndexedFaceSet></Shape></Scene></X3D>")))
+            .notes;
+    };
+    EXPECT_THAT(notes(""), testing::IsEmpty());
+    for (const char* of_faces : {"colorPerVertex=\"false\"", "colorPerVertex='false'"})
+        EXPECT_THAT(notes(of_faces), testing::ElementsAre(testing::HasSubstr("colours of X3D faces")));
+}
+
+TEST(Ply, TextureWithoutCoordinatesLeavesColours) {
+    Folder folder;
+    const std::string
+        header =
+            "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+            "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\n",
+        body = "-1 -1 0 255 0 0\n1 -1 0 255 0 0\n1 1 0 255 0 0\n-1 1 0 255 0 0\n4 0 1 2 3\n";
+    const fs::path plain = folder.write("p.ply", ply(header, body)),
+                   named = folder.write("t.ply", ply("comment TextureFile quarters.png\n" + header, body));
+    write_image(folder.path() / "quarters.png", Image(64, 64));
+    EXPECT_EQ(photo(named).rgb, photo(plain).rgb);
+    EXPECT_THAT(info(*load_model(named)).notes,
+                testing::ElementsAre("textures of a PLY file without texture coordinates are not shown"));
+}
+
+TEST(Stl, WhatIsCutShortIsNamed) {
+    Folder folder;
+    std::string bytes(84, '\0');
+    bytes[80] = 2;
+    for (const std::size_t length : {164, 221})
+        EXPECT_THAT(refused(folder.write("s.stl", bytes + std::string(length - bytes.size(), '\1'))),
+                    testing::HasSubstr("is damaged: it names 2 triangles, for which it must have 184 bytes; it has " +
+                                       std::to_string(length)));
 }
 
 }  // namespace

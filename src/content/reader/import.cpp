@@ -304,12 +304,14 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     folder->edited = [&](const std::string& name) -> std::optional<std::string> {
         const std::string ending = lower_ending(name);
         const bool has_positions = ending == ".obj" || ending == ".off" || ending == ".stl";
+        const bool has_face_colours = ending == ".off" || ending == ".x3d";
         bool changed = has_byte_order_mark(name);
         if (ending == ".mtl")
             return readable_materials(bytes_without_mark(name), std::filesystem::path(name).filename().string(), tilings,
                                       not_shown);
-        if (!has_positions && !changed) return {};
+        if (!has_positions && !has_face_colours && !changed) return {};
         std::string text = bytes_without_mark(name);
+        if (has_face_colours) note_face_colours(text, ending, not_shown);
         if (ending == ".obj") {
             note_free_forms(text, not_shown);
             changed |= separate_libraries(text);

@@ -38,6 +38,16 @@ void drop_normals(aiScene& scene) {
     }
 }
 
+// Makes colours of 0 to 255 colours of 0 to 1: OFF files have both, and the loader takes all for the latter.
+void scale_codes(aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        aiColor4D* const first = scene.mMeshes[m]->mColors[0];
+        aiColor4D* const end = first ? first + scene.mMeshes[m]->mNumVertices : nullptr;
+        if (std::any_of(first, end, [](const aiColor4D& c) { return c.r > 1 || c.g > 1 || c.b > 1; }))
+            std::for_each(first, end, [](aiColor4D& c) { c = c * (1 / 255.f); });
+    }
+}
+
 }  // namespace
 
 bool flat_without_normals(const std::filesystem::path& file, const std::string& format) {
@@ -58,6 +68,7 @@ bool flat_without_normals(const std::filesystem::path& file, const std::string& 
 void repair(aiScene& scene, const std::filesystem::path& file, const std::string& format) {
     if (format == "glTF Importer") place_gltf1_nodes(scene, file);
     if (format.starts_with("Blender")) drop_normals(scene);
+    if (format.starts_with("OFF")) scale_codes(scene);
 }
 
 void mend_normals(Model& model) {

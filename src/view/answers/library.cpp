@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t most_files = 1000, most_looked_at = 5000, most_entries = 100000, longest_name = 1000;
 constexpr int deepest = 6;  // folders below the served one
 
-std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
+std::string quoted(const std::string& name) { return fmt::format("\"{}\"", printable(name)); }
 
 // Whether a name is UTF-8; messages in JSON cannot have others.
 bool is_utf8(const std::string& text) {
@@ -73,8 +73,9 @@ struct Served {
     std::span<const std::string_view> endings;
 };
 constexpr std::string_view display_endings[] = {".toml"};
-constexpr std::string_view model_endings[] = {".3ds",  ".3mf", ".amf", ".ase", ".blend", ".cob", ".dae", ".dxf", ".fbx", ".glb",
-                                              ".gltf", ".hmp", ".ifc", ".lwo", ".obj",   ".off", ".ply", ".smd", ".stl", ".x"};
+constexpr std::string_view model_endings[] = {".3ds", ".3mf", ".amf",  ".ase", ".blend", ".cob", ".dae", ".dxf",
+                                              ".fbx", ".glb", ".gltf", ".hmp", ".ifc",   ".lwo", ".obj", ".off",
+                                              ".ply", ".smd", ".stl",  ".vrm", ".x",     ".x3d"};
 constexpr std::string_view picture_endings[] = {".png", ".jpg", ".jpeg", ".exr", ".npy"};
 constexpr Served served[] = {
     {Library::FileKind::display, "a description of a display", display_endings},

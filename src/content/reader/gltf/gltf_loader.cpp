@@ -144,6 +144,7 @@ void read_gltf(std::string bytes, const GltfFile::Open& open, aiScene& scene, No
     GltfFile file(std::move(bytes), open);
     const Item root = file.root(), node_items = root.at("nodes");
     const std::string version = root.at("asset").at("version").text();
+    if (version.empty()) throw std::runtime_error("it states no version of glTF; export it as glTF 2.0");
     if (!version.starts_with("2."))
         throw std::runtime_error("it is glTF " + version + ", which is not read; export it as glTF 2.0");
     check_extensions(root.at("extensionsRequired"), not_shown);

@@ -200,6 +200,31 @@ void note_free_forms(std::string_view text, NotShown& not_shown) {
     }
 }
 
+void note_face_colours(std::string_view text, std::string_view ending, NotShown& not_shown) {
+    if (ending == ".x3d") {
+        for (const char* const of_faces : {"colorPerVertex=\"false\"", "colorPerVertex='false'"})
+            if (text.find(of_faces) != text.npos) not_shown.add("colours of X3D faces (vertices have them instead, blended)");
+        return;
+    }
+    // An OFF file has a header, the numbers of vertices, faces and edges, and a line for each vertex and face: "3 0 1 2 255 0 0".
+    std::optional<double> vertices;
+    while (!text.empty()) {
+        std::string_view line = next_line(text);
+        line = line.substr(0, line.find('#'));
+        std::string_view rest = line;
+        const std::string_view word = next_word(rest);
+        if (word.empty()) continue;
+        if (!vertices) {
+            vertices = next_number(word.ends_with("OFF") ? rest : line);
+            continue;
+        }
+        if ((*vertices)-- > 0) continue;
+        std::size_t words = 0;
+        while (!next_word(rest).empty()) ++words;
+        if (words > whole_text<std::size_t>(word).value_or(words)) return not_shown.add("colours of OFF faces");
+    }
+}
+
 std::string readable_materials(std::string_view text, const std::string& name, std::map<std::string, Tiling>& tilings,
                                NotShown& not_shown) {
     const auto is = [](std::string_view word, const char* key) {

@@ -36,6 +36,10 @@ bool separate_libraries(std::string& text);
 /// Notes what else of an OBJ file Assimp leaves out: free-form curves and surfaces.
 void note_free_forms(std::string_view text, NotShown&);
 
+/// Notes colours of faces, which Assimp leaves out in OFF and gives to vertices, one after another, in X3D. `ending`: ".off" or
+/// ".x3d".
+void note_face_colours(std::string_view text, std::string_view ending, NotShown&);
+
 /// The transformation of texture coordinates by a .mtl file: offset + scale (u, v).
 struct Tiling {
     std::array<double, 2> offset{0, 0}, scale{1, 1};

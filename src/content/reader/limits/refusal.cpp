@@ -39,7 +39,10 @@ std::string no_triangles(const NotShown& not_shown) {
 std::string refusal(const std::string& says, const std::filesystem::path& file, const NotShown& not_shown) {
     if (says.starts_with("No output meshes") || says.starts_with("No meshes remaining"))
         return wrong_length(file).value_or(no_triangles(not_shown));
-    if (says.find("Failed to open file") != says.npos) return "is damaged, or not of the format that its name states";
+    constexpr const char* unfit = "is damaged, or not of the format that its name states";
+    if (says.starts_with("Failed to determine STL")) return wrong_length(file).value_or(unfit);
+    for (const char* const known : {"Failed to open file", "No suitable reader found", "File came out empty"})
+        if (says.find(known) != says.npos) return unfit;
     return says;
 }
 

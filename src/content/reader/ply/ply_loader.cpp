@@ -147,7 +147,10 @@ class Reading {
         auto made = std::make_unique<aiMaterial>();
         const aiColor4D white(1, 1, 1, 1);
         made->AddProperty(&white, 1, AI_MATKEY_COLOR_DIFFUSE);
-        if (texture < file_.textures.size()) {
+        const bool coloured = colour_ || face_colour_, on_surface = uv_ || own_uvs_;
+        if (texture < file_.textures.size() && coloured && !on_surface)
+            not_shown_.add("textures of a PLY file without texture coordinates");
+        else if (texture < file_.textures.size()) {
             const aiString name(file_.textures[texture]);
             made->AddProperty(&name, AI_MATKEY_TEXTURE_DIFFUSE(0));
         }
