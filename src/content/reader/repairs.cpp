@@ -38,12 +38,12 @@ void drop_normals(aiScene& scene) {
     }
 }
 
-// Makes colours of 0 to 255 colours of 0 to 1: OFF files have both, and the loader takes all for the latter.
+// Makes codes of 0 to 255, which OFF files have as well as numbers of 0 to 1, such numbers, as the loader takes both for.
 void scale_codes(aiScene& scene) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         aiColor4D* const first = scene.mMeshes[m]->mColors[0];
         aiColor4D* const end = first ? first + scene.mMeshes[m]->mNumVertices : nullptr;
-        if (std::any_of(first, end, [](const aiColor4D& c) { return c.r > 1 || c.g > 1 || c.b > 1; }))
+        if (std::any_of(first, end, [](const aiColor4D& c) { return std::max({c.r, c.g, c.b}) >= 2; }))
             std::for_each(first, end, [](aiColor4D& c) { c = c * (1 / 255.f); });
     }
 }

@@ -203,7 +203,8 @@ void note_free_forms(std::string_view text, NotShown& not_shown) {
 void note_face_colours(std::string_view text, std::string_view ending, NotShown& not_shown) {
     if (ending == ".x3d") {
         for (const char* const of_faces : {"colorPerVertex=\"false\"", "colorPerVertex='false'"})
-            if (text.find(of_faces) != text.npos) not_shown.add("colours of X3D faces (vertices have them instead, blended)");
+            if (text.find("<Color") != text.npos && text.find(of_faces) != text.npos)
+                not_shown.add("colours of X3D faces (vertices have them instead, blended)");
         return;
     }
     // An OFF file has a header, the numbers of vertices, faces and edges, and a line for each vertex and face: "3 0 1 2 255 0 0".
