@@ -44,7 +44,7 @@ TEST(LoadModel, FilesThatAreNoModels) {
     EXPECT_THAT(refusal(folder.path()), testing::HasSubstr("not a file"));
     EXPECT_THAT(refusal("/dev/zero"), testing::HasSubstr("not a file"));
     EXPECT_THAT(refusal(folder.write("empty.obj", "")), testing::HasSubstr("empty"));
-    EXPECT_THAT(refusal(folder.write("text.txt", "hello")), testing::HasSubstr("No suitable reader"));
+    EXPECT_THAT(refusal(folder.write("text.txt", "hello")), testing::HasSubstr("is damaged, or of no format that is read"));
     EXPECT_THAT(refusal(folder.write("noise.stl", std::string(1000, '\xff'))), testing::Not(testing::IsEmpty()));
     EXPECT_THAT(refusal(folder.write("points.obj", "v 0 0 0\nv 1 1 1\n")), testing::Not(testing::IsEmpty()));
     EXPECT_THAT(refusal(folder.write("line.obj", "v 0 0 0\nv 1 1 1\nl 1 2\n")), testing::Not(testing::IsEmpty()));

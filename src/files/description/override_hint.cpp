@@ -131,8 +131,12 @@ std::string text_hint(std::string_view value) {
     return word ? fmt::format("text is written in quotes: \"{}\"", value) : "";
 }
 
+/// Returns the hint for the value of a key that takes a list; none for one with brackets and commas, which was refused for another
+/// reason, such as too many digits.
 std::string list_hint(std::string_view value) {
-    if (const auto all = decimals(value))
+    const std::optional<std::vector<std::string>> all = decimals(value);
+    const auto commas = std::size_t(std::count(value.begin(), value.end(), ','));
+    if (all && !(value.starts_with('[') && value.ends_with(']') && commas + 1 == all->size()))
         return fmt::format("a list is written in brackets, with commas: [{}]", fmt::join(*all, ", "));
     return "";
 }

@@ -41,7 +41,8 @@ std::string refusal(const std::string& says, const std::filesystem::path& file, 
         return wrong_length(file).value_or(no_triangles(not_shown));
     constexpr const char* unfit = "is damaged, or not of the format that its name states";
     if (says.starts_with("Failed to determine STL")) return wrong_length(file).value_or(unfit);
-    for (const char* const known : {"Failed to open file", "No suitable reader found", "File came out empty"})
+    if (says.starts_with("No suitable reader found")) return "is damaged, or of no format that is read";
+    for (const char* const known : {"Failed to open file", "File came out empty"})
         if (says.find(known) != says.npos) return unfit;
     return says;
 }
