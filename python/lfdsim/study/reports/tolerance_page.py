@@ -81,7 +81,8 @@ def summary(found: Tolerance, percent: float) -> list[str]:
         lines += ["", f"Budget for {first['loss']}: it may {WAYS[first['way']]} {first['allowed']:g}"]
         for _, line in of_it.iterrows():
             size = "" if line["error"] == ALL else f", {_sizes(line)}"
-            known = f"{_scale(line)} of its size{size}; " if _scale(line) else ""
+            scale = _scale(line)
+            known = f"{scale} of its size{size}; " if scale else ""
             lines.append(f"  {line['error']}: {known}{line['how']}")
         lines += [f"  {reason}"] if (reason := _too_few(of_it, percent)) else []
     return lines
