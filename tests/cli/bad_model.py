@@ -24,6 +24,7 @@ triangle = bytes(80) + (1).to_bytes(4, "little") + bytes(50)
 for name, content, says in [("short.stl", b"solid" + triangle[5:-3], "it must have 134 bytes; it has 131"),
                             ("lying.stl", b"solid" + triangle[5:80] + (4000000000).to_bytes(4, "little") + triangle[84:], "names 4000000000 triangles"),
                             ("empty.stl", b"solid x\nendsolid x\n", "has no triangles: nothing to show"),
+                            ("split.off", b"OFF\n3 1 0\n0 0 0\n1 0 # height\n0\n0 1 0\n3 0 1 2\n", "something else stands in place of a number"),
                             ("none.3mf", b"PK\3\4" + bytes(200), "is damaged, or not of the format that its name states")]:
     (program.folder / name).write_bytes(content)
     checks.refused(program, name, f"photo tiny.toml --model {name} -o out.png", says)
@@ -39,8 +40,8 @@ code, _, err = program.run("photo tiny.toml --model bare.obj -o bare.png")
 checks.that(code == 0 and err.count("left out, shown grey") == 6 and "35 more textures left out" in err, f"40 missing textures: {code} {err}")
 
 # What the reader of 3MF passes over is said; what it cannot take is not called damaged.
-def write_3mf(name, resources, build):
-    with zipfile.ZipFile(program.folder / name, "w", zipfile.ZIP_DEFLATED) as archive:
+def write_3mf(name, resources, build, compression=zipfile.ZIP_DEFLATED):
+    with zipfile.ZipFile(program.folder / name, "w", compression) as archive:
         archive.writestr("_rels/.rels", '<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
                          '<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
                          '</Relationships>')
@@ -60,13 +61,24 @@ red = '<basematerials id="2"><base name="red" displaycolor="#FF0000"/></basemate
 item = '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 691000.3 5334000.2 7"/>'
 for name, resources, note in [("plain.3mf", square_3mf(""), ""), ("red.3mf", red + square_3mf("", 'pid="2" pindex="0"'), ""),
                               ("bare.3mf", red + square_3mf(""), "missing materials of 3MF objects (they get the file's first) are not shown"),
+                              ("nowhere.3mf", red + square_3mf("", 'pid="9" pindex="0"'), "missing materials of 3MF objects (they get the file's first) are not shown"),
                               ("group.3mf", '<m:colorgroup id="2"><m:color color="#FF0000"/></m:colorgroup>' + square_3mf('pid="2" p1="0"'),
                                "colours of 3MF colour groups and materials of single triangles of 3MF are not shown")]:
     write_3mf(name, resources, item)
     code, _, err = program.run(f"photo tiny.toml --model {name} -o 3mf.png")
     checks.that(code == 0 and note in err and ("warning" in err) == bool(note), f"{name}: {code} {err}")
+# Hundreds of thousands of triangles before the only one with a material are searched once.
+strip = range(200000)
+corners, triangles = "".join(f'<vertex x="{i}" y="0" z="{i % 2}"/>' for i in strip), "".join(f'<triangle v1="{i}" v2="{i + 1}" v3="{i + 2}"/>' for i in strip[:-2])
+write_3mf("many.3mf", f'{red}<object id="3"><mesh><vertices>{corners}</vertices><triangles>{triangles}</triangles></mesh></object>'
+          + square_3mf('pid="2" p1="0"', 'pid="2" pindex="0"'), item, zipfile.ZIP_STORED)
+code, _, err = program.run("photo tiny.toml --model many.3mf -o 3mf.png")
+checks.that(code == 0 and "materials of single triangles" in err, f"many.3mf: {code} {err}")
 write_3mf("vertex.3mf", square_3mf("", last=9), item)
 checks.refused(program, "a face beyond the vertices", "photo tiny.toml --model vertex.3mf -o 3mf.png", "indices of vertices that do not exist")
+for index in "1", "3", "100000", "-1", "x":
+    write_3mf("material.3mf", red + square_3mf("", f'pid="2" pindex="{index}"'), item)
+    checks.refused(program, f"material {index} of one", "photo tiny.toml --model material.3mf -o 3mf.png", "a material that does not exist")
 write_3mf("itself.3mf", '<object id="2" type="model"><components><component objectid="2"/></components></object>', '<item objectid="2"/>')
 checks.refused(program, "a part of itself", "photo tiny.toml --model itself.3mf -o 3mf.png", "save it in another format")
 

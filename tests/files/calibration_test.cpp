@@ -56,13 +56,14 @@ TEST(Calibration, IsFoundWhereverItStands) {
     small.erase("CellPatternMode");
     small.erase("DPI");
     other["serial"] = "ANOTHER";
-    Json devices, config, text, twice, two;
+    Json devices, config, text, coded, twice, two;
     devices["error"] = 0;
     devices["devices"][0]["hwid"] = "X01";
     devices["devices"][0]["calibration"] = json;
     devices["devices"][0]["defaultQuilt"]["tileX"] = 11;
     config["configValue"] = json;
     text["payload"]["0"]["calibration"]["value"] = json.dump();
+    coded["data"] = Json(json.dump()).dump();  // a text that is a text in JSON
     twice["a"] = twice["b"] = json;
     two["devices"][0]["calibration"] = json;
     two["devices"][1]["calibration"] = other;
@@ -70,6 +71,7 @@ TEST(Calibration, IsFoundWhereverItStands) {
     for (const auto& [wrapped, place] : {std::pair(devices, "devices[0].calibration"),
                                          {config, "configValue"},
                                          {text, "payload.0.calibration.value"},
+                                         {coded, "data"},
                                          {small, ""},
                                          {twice, "a"}}) {
         ASSERT_TRUE(is_calibration(wrapped.dump(), "x")) << place;

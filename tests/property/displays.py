@@ -11,11 +11,14 @@ KINDS = {"near-eye": ((18, 45), (0.2, 2)), "hand-held": ((150, 450), (0.2, 5)), 
 CONTENTS = ("built-in:spheres", "relief.obj", "pyramid.gltf")  # the files are written by contents.py
 
 
-OTHERS = 500  # of each thousand numbers those from here on are products as they are sold, and kinds that draw() seldom or never has
+OTHERS = 500  # of each thousand numbers those from here on are products as they are sold, and kinds that draw() seldom or never has,
+WIDER = 750  # and those from here on are the first ones with lenses beyond the panel
 
 
 def draw(number, most_pixels):
     """Display `number`, with at most most_pixels panel pixels. Not all that is drawn can be built: `check` refuses some."""
+    if number % 1000 >= WIDER:
+        return with_lenses_beyond(number, draw(number - WIDER, most_pixels))
     if number % 1000 >= OTHERS:
         return draw_other(number, most_pixels)
     rng = np.random.default_rng([2024, number])
@@ -126,6 +129,13 @@ def draw_other(number, most_pixels):
                    "content": {"viewing_distance_mm": distance}, "render": {"seed": number}}
     if kind not in ("two views", "lenticular") and rng.random() < 0.5:
         description["diffuser"] = draw_diffuser(rng, pitch, eye)
+    return description
+
+
+def with_lenses_beyond(number, description):
+    """Gives an array 1.2 to 3 times as many lenses, each way, as before: eyes see none of those that lie far beside the panel."""
+    rng = np.random.default_rng([2031, number])
+    description["array"]["count"] = [n if n == 1 else math.ceil(n * rng.uniform(1.2, 3)) for n in description["array"]["count"]]
     return description
 
 

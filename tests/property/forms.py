@@ -128,10 +128,18 @@ class Forms:
             out |= self.colour_of_white(result["colour"])
         return out
 
+    def lenses_of_blocks(self):
+        """(first lens, number), across and up: of those that cover the panel, in the array's middle."""
+        lenses, cover = self.sight(1, False).lenses, oracle.covering_count(self.description)
+        if self.display.strips:
+            cover[1] = lenses[1]
+        beside = np.maximum(lenses - cover, 0) // 2
+        return beside, lenses - 2 * beside
+
     def colour_of_white(self, told):
         """Of blocks of the screen, and of the middle one from angles: how far their colours are from that of all of them."""
         d, out = self.display, {}
-        count, share = self.sight(1, False).lenses, 1 / max(sum(shares.any() for shares, _ in d.colours), 1)
+        (beside, count), share = self.lenses_of_blocks(), 1 / max(sum(shares.any() for shares, _ in d.colours), 1)
 
         def add(name, first, number, weights, eye):
             parts = len(weights)
@@ -145,11 +153,12 @@ class Forms:
                 out[f"colour.{name}_delta_uv_{figure}"] = UNSURE if form and not form[1] <= COLOUR_UNSURE else form
 
         first, number = colours.blocks_of_screen(count)
-        add("screen", first, number, number.prod(axis=1).astype(float), np.array([0.0, 0.0, self.eye]))
+        add("screen", beside + first, number, number.prod(axis=1).astype(float), np.array([0.0, 0.0, self.eye]))
         across = d.panel.pixel_pitch_mm * (np.abs(oracle.Lattice(d).turn[0, 0]) if d.strips else 1)
         each_side = min(max(math.ceil(4 * d.cell.width[0] / across - 1e-9), 16), 128)
         angles = np.radians(np.linspace(*told["angle_deg"], 2 * each_side + 1))
-        block = [np.tile(v, (len(angles), 1)) for v in colours.middle_block(count)]
+        first, number = colours.middle_block(count)
+        block = [np.tile(v, (len(angles), 1)) for v in (beside + first, number)]
         for axis, name in ((0, "horizontal"), (1, "vertical")):
             eyes = np.zeros((len(angles), 3))
             eyes[:, axis], eyes[:, 2] = self.eye * np.sin(angles), self.eye * np.cos(angles)

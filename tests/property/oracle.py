@@ -47,3 +47,9 @@ def resolve(description):
         for surface in at.surfaces:
             surface.__class__ = SmoothSurface
     return d
+
+
+def covering_count(description):
+    """How many lenses, across and up, cover the panel."""
+    array = {key: value for key, value in description["array"].items() if key != "count"}
+    return np.array(resolve({**description, "array": array}).array.count)

@@ -151,6 +151,7 @@ def display_cases(harness, only, errors, index):
 
 
 def stop(*_):
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # timeout(1) sends it twice
     raise KeyboardInterrupt
 
 

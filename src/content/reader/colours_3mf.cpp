@@ -1,10 +1,15 @@
 #include "content/reader/colours_3mf.h"
 
+#include "base/whole_text.h"
+
 #include <minizip/unzip.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace lfdsim::reader {
 namespace {
@@ -25,23 +30,54 @@ std::string text_of_current(unzFile archive) {
 }
 
 // Returns whether any element of a name has an attribute.
-bool has_attribute(const std::string& text, const std::string& element, const std::string& attribute) {
-    for (std::size_t at = text.find(element); at != std::string::npos; at = text.find(element, at + 1)) {
-        const std::size_t found = text.find(attribute, at);
-        if (found == std::string::npos) return false;
-        if (found < text.find('>', at)) return true;
-    }
+bool has_attribute(std::string_view text, std::string_view element, std::string_view attribute) {
+    for (std::size_t at = text.find(element); at != text.npos; at = text.find(element, at + 1))
+        if (text.substr(at, text.find('>', at) - at).find(attribute) != text.npos) return true;
     return false;
 }
 
-// Returns whether a file with base materials has an object with a mesh and without a material.
-bool has_bare_mesh(const std::string& text) {
-    if (text.find("<basematerials") == std::string::npos) return false;
-    for (std::size_t at = text.find("<object "); at != std::string::npos; at = text.find("<object ", at + 1)) {
-        const std::size_t mesh = text.find("<mesh", at), end = text.find("</object", at), pid = text.find(" pid=", at);
-        if (mesh < end && pid > text.find('>', at)) return true;
+// Returns the next element of a name with all that is in it, and removes it and what precedes it from the text; empty if there is
+// none.
+std::string_view next_element(std::string_view& text, std::string_view name) {
+    text.remove_prefix(std::min(text.find("<" + std::string(name)), text.size()));
+    const std::string_view element = text.substr(0, text.find("</" + std::string(name)));
+    text.remove_prefix(element.size());
+    return element;
+}
+
+// Returns the value of an attribute of the element with which a text begins; empty if it has none.
+std::string_view value_of(std::string_view text, const std::string& attribute) {
+    const std::string_view tag = text.substr(0, text.find('>'));
+    const std::size_t at = tag.find(" " + attribute + "=");
+    if (at == tag.npos) return {};
+    const std::string_view quoted = tag.substr(at + attribute.size() + 2);
+    return quoted.size() < 2 ? "" : quoted.substr(1, quoted.find(quoted[0], 1) - 1);
+}
+
+// Returns the numbers of materials of all groups of base materials, by the groups' ids.
+std::map<std::string_view, std::size_t> base_materials(std::string_view text) {
+    std::map<std::string_view, std::size_t> counts;
+    for (std::string_view group; !(group = next_element(text, "basematerials")).empty();) {
+        std::size_t& count = counts[value_of(group, "id")];
+        for (std::size_t at = group.find("<base "); at != group.npos; at = group.find("<base ", at + 1)) ++count;
     }
-    return false;
+    return counts;
+}
+
+// Notes objects with a mesh and without a material in a file with base materials. Throws std::runtime_error for an object whose
+// material its group does not have: Assimp would read beyond the group's list.
+void check_materials(std::string_view text, NotShown& not_shown) {
+    const auto groups = base_materials(text);
+    if (groups.empty()) return;
+    for (std::string_view object; !(object = next_element(text, "object")).empty();) {
+        if (object.find("<mesh") == object.npos) continue;
+        const std::string_view index = value_of(object, "pindex");
+        const auto group = groups.find(value_of(object, "pid"));
+        if (group == groups.end() || index.empty())
+            not_shown.add("missing materials of 3MF objects (they get the file's first)");
+        else if (whole_text<std::size_t>(index).value_or(group->second) >= group->second)
+            throw std::runtime_error("an object refers to a material that does not exist; the file is damaged, export it again");
+    }
 }
 
 }  // namespace
@@ -58,7 +94,7 @@ void note_3mf(const std::filesystem::path& file, NotShown& not_shown) {
         if (text.find(":colorgroup") != std::string::npos || text.find("<colorgroup") != std::string::npos)
             not_shown.add("colours of 3MF colour groups");
         if (has_attribute(text, "<triangle ", " pid=")) not_shown.add("materials of single triangles of 3MF");
-        if (has_bare_mesh(text)) not_shown.add("missing materials of 3MF objects (they get the file's first)");
+        check_materials(text, not_shown);
         if (has_attribute(text, "<component ", ":path=")) not_shown.add("parts in other files of a 3MF archive");
     }
 }

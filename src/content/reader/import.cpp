@@ -327,6 +327,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         return changed ? std::optional(std::move(text)) : std::nullopt;
     };
     choose_loaders(importer, file, *folder, not_shown);
+    note_3mf(file, not_shown);
     auto* warnings = new Warnings;  // owned by the logger
     Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
     Assimp::DefaultLogger::get()->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
@@ -341,7 +342,6 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         check_references(loaded);
         repair(loaded, file, format);
         note_deformations(loaded, not_shown);
-        if (is_3mf) note_3mf(file, not_shown);
         exponent += fit_to_floats(loaded, not_shown);
         if (!flat_without_normals(file, format)) smooth_normals(loaded, crease_deg);
         scene = importer.ApplyPostProcessing(steps | (may_join(loaded, format) ? aiProcess_JoinIdenticalVertices : 0u));

@@ -88,7 +88,7 @@ void find_within(const std::shared_ptr<const LensJson>& text, const LensJson& js
         if (word.find('{') == word.npos) return;
         const UniqueKeys<LensJson> unique(fmt::format("{}: {}: ", name, place));
         const auto inside = std::make_shared<const LensJson>(LensJson::parse(word, unique, false));  // nothing, where it is no JSON
-        if (inside->is_structured()) find_within(inside, *inside, name, place, depth + 1, found);
+        if (!inside->is_discarded()) find_within(inside, *inside, name, place, depth + 1, found);
     }
     if (json.is_object())
         for (const auto& [key, content] : json.items())

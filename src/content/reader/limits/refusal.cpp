@@ -42,6 +42,8 @@ std::string refusal(const std::string& says, const std::filesystem::path& file, 
     constexpr const char* unfit = "is damaged, or not of the format that its name states";
     if (says.starts_with("Failed to determine STL")) return wrong_length(file).value_or(unfit);
     if (says.starts_with("No suitable reader found")) return "is damaged, or of no format that is read";
+    if (says.starts_with("Cannot parse string"))
+        return "something else stands in place of a number; save it in another format, such as glTF";
     for (const char* const known : {"Failed to open file", "File came out empty"})
         if (says.find(known) != says.npos) return unfit;
     return says;
