@@ -24,7 +24,7 @@ triangle = bytes(80) + (1).to_bytes(4, "little") + bytes(50)
 for name, content, says in [("short.stl", b"solid" + triangle[5:-3], "it must have 134 bytes; it has 131"),
                             ("lying.stl", b"solid" + triangle[5:80] + (4000000000).to_bytes(4, "little") + triangle[84:], "names 4000000000 triangles"),
                             ("empty.stl", b"solid x\nendsolid x\n", "has no triangles: nothing to show"),
-                            ("split.off", b"OFF\n3 1 0\n0 0 0\n1 0 # height\n0\n0 1 0\n3 0 1 2\n", "something else stands in place of a number"),
+                            ("split.off", b"OFF\n3 1 0\n0 0 0\n1 0 # height\n0\n0 1 0\n3 0 1 2\n", "has text where a number is expected"),
                             ("none.3mf", b"PK\3\4" + bytes(200), "is damaged, or not of the format that its name states")]:
     (program.folder / name).write_bytes(content)
     checks.refused(program, name, f"photo tiny.toml --model {name} -o out.png", says)

@@ -11,8 +11,8 @@ KINDS = {"near-eye": ((18, 45), (0.2, 2)), "hand-held": ((150, 450), (0.2, 5)), 
 CONTENTS = ("built-in:spheres", "relief.obj", "pyramid.gltf")  # the files are written by contents.py
 
 
-OTHERS = 500  # of each thousand numbers those from here on are products as they are sold, and kinds that draw() seldom or never has,
-WIDER = 750  # and those from here on are the first ones with lenses beyond the panel
+OTHERS = 500  # of each thousand numbers those from here on are products as they are sold, and kinds that draw() seldom or never has
+WIDER = 750  # of each thousand numbers those from here on are the displays from number 0 on, with lenses beyond the panel
 
 
 def draw(number, most_pixels):

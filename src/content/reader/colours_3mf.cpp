@@ -1,6 +1,7 @@
 #include "content/reader/colours_3mf.h"
 
 #include "base/whole_text.h"
+#include "content/reader/repairs.h"
 
 #include <minizip/unzip.h>
 
@@ -76,7 +77,7 @@ void check_materials(std::string_view text, NotShown& not_shown) {
         if (group == groups.end() || index.empty())
             not_shown.add("missing materials of 3MF objects (they get the file's first)");
         else if (whole_text<std::size_t>(index).value_or(group->second) >= group->second)
-            throw std::runtime_error("an object refers to a material that does not exist; the file is damaged, export it again");
+            throw std::runtime_error(missing_material);
     }
 }
 

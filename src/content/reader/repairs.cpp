@@ -103,8 +103,7 @@ void mend_normals(Model& model) {
 void check_references(const aiScene& scene) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         const aiMesh& mesh = *scene.mMeshes[m];
-        if (mesh.mMaterialIndex >= scene.mNumMaterials)
-            throw std::runtime_error("a mesh refers to a material that does not exist; the file is damaged, export it again");
+        if (mesh.mMaterialIndex >= scene.mNumMaterials) throw std::runtime_error(missing_material);
         for (unsigned f = 0; f < mesh.mNumFaces; ++f)
             for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
                 if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices) throw std::runtime_error(missing_vertices);

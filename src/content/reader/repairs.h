@@ -16,9 +16,11 @@ void repair(aiScene& scene, const std::filesystem::path& file, const std::string
 /// off", no smoothing group), which Assimp ignores.
 bool flat_without_normals(const std::filesystem::path& file, const std::string& format);
 
-/// The refusal of files whose faces have indices out of range.
+/// The refusals of files whose faces have indices out of range, and whose meshes have no such material.
 inline constexpr const char* missing_vertices =
     "some faces have indices of vertices that do not exist; the file is damaged, export it again";
+inline constexpr const char* missing_material =
+    "a mesh refers to a material that does not exist; the file is damaged, export it again";
 
 /// Throws std::runtime_error if a mesh as loaded refers to a material, or a face to a vertex, that does not exist: Assimp's steps
 /// leave such meshes out, and read beyond the end of the vertices.

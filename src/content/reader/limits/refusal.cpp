@@ -43,7 +43,7 @@ std::string refusal(const std::string& says, const std::filesystem::path& file, 
     if (says.starts_with("Failed to determine STL")) return wrong_length(file).value_or(unfit);
     if (says.starts_with("No suitable reader found")) return "is damaged, or of no format that is read";
     if (says.starts_with("Cannot parse string"))
-        return "something else stands in place of a number; save it in another format, such as glTF";
+        return "has text where a number is expected; save it in another format, such as glTF";
     for (const char* const known : {"Failed to open file", "File came out empty"})
         if (says.find(known) != says.npos) return unfit;
     return says;
