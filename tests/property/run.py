@@ -9,6 +9,7 @@ import argparse
 import functools
 import json
 import multiprocessing
+import os
 import pathlib
 import re
 import signal
@@ -22,11 +23,11 @@ import oracle
 import table
 from forms import Forms
 
-# One display of as many has the measure. "likeness" is `analyze fov` with all its views: minutes where the default picture takes points. --quick: by
-# turns, and pictures are small.
-USUALLY = {"likeness": 6}
+# One display of as many has the measure. "likeness" is `analyze fov` with all its views. --quick: by turns, and pictures are small.
+USUALLY = {"likeness": 3}
 EVERY = {"fov": 2, "likeness": 15, "dof": 5, "zone": 10, "crosstalk": 9, "uniformity": 9, "spot": 5, "mtf": 20, "moire": 9}
 NO_FIGURE = re.compile(r"[ (-]nan\b|(?<!=)[ (-]inf\b|\de[+-]?\d")  # in what check tells in words; "= inf" is the value of a key
+POINTS = "--estimator", "point", "--samples", 256  # default pictures, of which some take 64 times as long, are looked at by pictures.py
 TRIES = 20  # drawings for one display, where `check` refuses some
 
 
@@ -60,7 +61,7 @@ class Harness:
         raise RuntimeError(f"display {number}: {TRIES} drawings refused, the last: {done.stderr}")
 
     def measured(self, path, command, options):
-        done = self.lfdsim("analyze", command, path, *options, "--threads", 1, "--progress", "none", "--json", "-o", f"{path.stem}-{command}")
+        done = self.lfdsim("analyze", command, path, *options, *POINTS, "--threads", 1, "--progress", "none", "--json", "-o", f"{path.stem}-{command}")
         if done.returncode:
             raise RuntimeError(f"lfdsim analyze {command} {path}: {done.stderr}")
         return json.loads(done.stdout)
@@ -155,10 +156,16 @@ def stop(*_):
     raise KeyboardInterrupt
 
 
+def begin_worker():
+    """Leaves signals to the parent, which ends its workers itself; one that ends takes the program that it waits for along."""
+    os.setpgrp()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit())
+
+
 def measured(harness, options):
     """Cases, refusals and failures of each display; where a signal ends the run, of those that are done."""
     parts = []
-    with multiprocessing.Pool(initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)) as pool:
+    with multiprocessing.Pool(initializer=begin_worker) as pool:
         signal.signal(signal.SIGTERM, stop)  # after the workers' start: they end at once
         try:
             for part in pool.imap(functools.partial(display_cases, harness, options.only, options.errors), range(options.first, options.first + options.displays)):
