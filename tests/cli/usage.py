@@ -34,6 +34,8 @@ for name, arguments, words in [
     ("spaces and commas, before the display", "render --target-mm 40, 0, -5 tiny.toml -o out.png", "--target-mm 40,0,-5"),
     ("spaces in steps", "analyze fov tiny.toml --angles-deg -30 30 1 -o out", "--angles-deg -30,30,1"),
     ("spaces in a crop", "compare panel.png panel.png --crop 0 0 5 5", "--crop 0,0,5,5"),
+    ("a space for =", "check tiny.toml --set array.pitch_mm 8", "--set array.pitch_mm: a key and its value are one word: --set array.pitch_mm=VALUE"),
+    ("a space for =, before the display", "check --set array.pitch_mm 8 tiny.toml", "--set array.pitch_mm=VALUE"),
     ("spaces for an x", "render tiny.toml --size 96 x 54 -o out.png", "--size 96x54"),
     ("a comma for an x in a grid", "views tiny.toml --grid 3,3 -o views", "give columns x rows, such as 9x9"),
     ("one number for three", "analyze fov tiny.toml --angles-deg 5 -o out", "give FROM,TO,STEP: 3 finite numbers with commas between, such as -30,30,1"),

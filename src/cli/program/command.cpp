@@ -23,7 +23,8 @@ Misuse misuse(const CLI::App& program, const CLI::ParseError& error) {
     return all;
 }
 
-// Refuses "--camera-mm 40 0 599", which CLI11 would take for a value and two more files. `words` are in reverse order.
+// Refuses "--camera-mm 40 0 599" and "--set array.pitch_mm 8", which CLI11 would take for a value and more files. `words` are in
+// reverse order.
 void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
     std::reverse(words.begin(), words.end());
     const auto commands = [&](const std::string& word) {
@@ -34,8 +35,11 @@ void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
     const CLI::App& command = *commands(*name).front();
     for (auto word = name + 1; word != words.end() && *word != "--"; ++word) {
         const CLI::Option* option = word->starts_with("--") ? command.get_option_no_throw(*word) : nullptr;
-        if (!option || option->get_expected_max() > 1) continue;
+        if (!option || word + 1 == words.end()) continue;
         const std::string form = option->get_type_name();
+        if (form == "KEY=VALUE" && !word[1].starts_with("-") && word[1].find('=') == std::string::npos)
+            throw setting_error(*word, word[1]);
+        if (option->get_expected_max() > 1) continue;
         if (const auto numbers = spaced_numbers(form, {word + 1, words.end()}); !numbers.empty())
             throw spaced_error(*word, form, numbers);
     }

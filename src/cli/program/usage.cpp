@@ -112,6 +112,10 @@ InputError spaced_error(const std::string& option, const std::string& form, cons
                                 form.substr(form.rfind('|') + 1), comma ? "commas" : "an x", option, fmt::join(numbers, between))};
 }
 
+InputError setting_error(const std::string& option, const std::string& key) {
+    return {fmt::format("{} {}", option, key), fmt::format("a key and its value are one word: {} {}=VALUE", option, key)};
+}
+
 // CLI11 stops at the first rule that is broken, often "something is required" where a name was mistyped. What it could not place
 // says more, so that comes first.
 InputError usage_error(const Misuse& misuse) {

@@ -28,6 +28,9 @@ std::vector<std::string> spaced_numbers(const std::string& form, std::span<const
 /// Returns the error of a value that was given as several words.
 InputError spaced_error(const std::string& option, const std::string& form, const std::vector<std::string>& numbers);
 
+/// Returns the error of a key that was given without "=" and a value in the same word.
+InputError setting_error(const std::string& option, const std::string& key);
+
 /// Returns the error of a command line: unknown commands and options with the nearest known one, values that are missing, and where
 /// to find help.
 InputError usage_error(const Misuse&);
