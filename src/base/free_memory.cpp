@@ -1,5 +1,7 @@
 #include "base/free_memory.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -59,12 +61,7 @@ std::string unescaped(const std::string& text) {
 }
 
 /// Returns whether a list of words separated by commas contains a word.
-bool lists(const std::string& options, const std::string& one) {
-    std::istringstream in(options);
-    for (std::string word; std::getline(in, word, ',');)
-        if (word == one) return true;
-    return false;
-}
+bool lists(std::string_view options, std::string_view one) { return std::ranges::count(split(options, ','), one) > 0; }
 
 /// Returns the mounted trees that control memory, of both versions, from /proc/self/mountinfo: "36 35 98:0 ROOT POINT options
 /// [fields] - TYPE SOURCE SUPER_OPTIONS". Version 1 names its controllers among the super options.

@@ -1,5 +1,7 @@
 #include "base/hermite.h"
 
+#include "base/bisection.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,15 +10,10 @@
 namespace lfdsim {
 namespace {
 
-/// Returns the zero of the polynomial of degree K between two positions where its signs differ, by bisection: the end is reached
-/// when no number lies between the bounds.
+/// Returns the zero of the polynomial of degree K between two positions where its signs differ.
 double zero_between(std::size_t K, double low, double high) {
     const bool rises = hermite(K, high)[K] > 0;
-    while (true) {
-        const double middle = (low + high) / 2;
-        if (middle <= low || middle >= high) return middle;
-        ((hermite(K, middle)[K] > 0) == rises ? high : low) = middle;
-    }
+    return bisected(low, high, to_last_bit, [&](double x) { return (hermite(K, x)[K] > 0) != rises; }).middle();
 }
 
 using Zeros = std::array<std::vector<double>, max_hermite_degree + 1>;

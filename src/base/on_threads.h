@@ -9,6 +9,9 @@
 
 namespace lfdsim {
 
+/// The most threads that may be asked for.
+inline constexpr int most_threads = 1024;
+
 /// Returns do_it(), whose parallel loops use `threads` threads; 0: one for each processor.
 template <class Do>
 auto on_threads(int threads, const Do& do_it) {

@@ -1,5 +1,7 @@
 #include "base/printable.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <cstdint>
@@ -28,29 +30,6 @@ bool is_unseen(char32_t c) {
     return std::any_of(std::begin(unseen), std::end(unseen), [&](const CodeRange& r) { return r.first <= c && c <= r.last; });
 }
 
-struct Character {
-    char32_t code;
-    std::size_t bytes;  // 0: the bytes are not UTF-8
-};
-
-/// Returns the first character of a text that is not empty (RFC 3629: shortest forms, no surrogates, up to U+10FFFF).
-Character first_of(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    if (lead < 0x80) return {lead, 1};
-    // The leading byte gives the length; `least` is the smallest code of each length, below which the form is not the shortest.
-    const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-    constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    if (lead < 0xc2 || lead > 0xf4 || text.size() < bytes) return {lead, 0};
-    char32_t code = lead & (0x7fu >> bytes);
-    for (std::size_t i = 1; i < bytes; ++i) {
-        if ((byte(i) & 0xc0) != 0x80) return {lead, 0};
-        code = code << 6 | (byte(i) & 0x3f);
-    }
-    const bool surrogate = code >= 0xd800 && code < 0xe000;
-    return code < least[bytes] || code > 0x10ffff || surrogate ? Character{lead, 0} : Character{code, bytes};
-}
-
 /// Returns \u and four digits, of a code above U+FFFF those of its two UTF-16 surrogates.
 std::string escape(char32_t c) {
     if (c < 0x10000) return fmt::format("\\u{:04x}", std::uint32_t(c));
@@ -62,7 +41,7 @@ std::string harmless(std::string_view text, std::string_view allowed) {
     std::string all;
     all.reserve(text.size());
     while (!text.empty()) {
-        const auto [code, bytes] = first_of(text);
+        const auto [code, bytes] = first_character(text);
         if (bytes == 0)
             all += fmt::format("\\x{:02x}", std::uint32_t(code));
         else if (is_unseen(code) && (bytes > 1 || allowed.find(text[0]) == allowed.npos))
@@ -76,7 +55,7 @@ std::string harmless(std::string_view text, std::string_view allowed) {
 
 /// Returns the position of the start of the character that contains byte `at`.
 std::size_t boundary(std::string_view text, std::size_t at) {
-    while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) --at;
+    while (at > 0 && !begins_character(text[at])) --at;
     return at;
 }
 

@@ -48,7 +48,7 @@ class Design {
         choose_views();
         find_gap();
         make_lenses();
-        make_ray_origin();
+        place_camera_and_content();
         if (const std::vector<Problem> problems = validate(d_); !problems.empty())
             throw InputError("--distance-mm", fmt::format("is {:g}, which gives no valid display: {} {}", r_.distance_mm,
                                                           problems[0].where, problems[0].what));
@@ -224,7 +224,7 @@ class Design {
     }
 
     /// Places camera and content. The box filter and the pupil replace the diffuser, which strips do not have.
-    void make_ray_origin() {
+    void place_camera_and_content() {
         const double width = double(r_.pixels[0]) * a_, height = double(r_.pixels[1]) * a_;
         // The camera is in the middle of a view; half-way between two views an eye would see both.
         d_.camera.position_mm = {made_.two_view ? rounded(made_.view_step_mm / 2) : 0, 0, r_.distance_mm};

@@ -88,25 +88,17 @@ constexpr Key<SceneObject> object_keys[] = {
 }  // namespace
 
 template <>
-const Table<Content>& table_of<Content>() {
-    static constexpr Table<Content> table{"content", "What elemental images and reference photographs show.", content_keys};
-    return table;
-}
+constinit const Table<Content> TableOf<Content>::table{"content", "What elemental images and reference photographs show.",
+                                                       content_keys};
 template <>
-const Table<ContentLight>& table_of<ContentLight>() {
-    static constexpr Table<ContentLight> table{
-        "light",
-        "Lighting of models. They show their colour times (ambient + strength x cosine of the angle to the light, if positive).",
-        light_keys};
-    return table;
-}
+constinit const Table<ContentLight> TableOf<ContentLight>::table{
+    "light",
+    "Lighting of models. They show their colour times (ambient + strength x cosine of the angle to the light, if positive).",
+    light_keys};
 template <>
-const Table<SceneObject>& table_of<SceneObject>() {
-    static constexpr Table<SceneObject> table{
-        "object",
-        "An object of the scene, in place of content.model: a model or an image. At most 64; near objects hide those behind them.",
-        object_keys};
-    return table;
-}
+constinit const Table<SceneObject> TableOf<SceneObject>::table{
+    "object",
+    "An object of the scene, in place of content.model: a model or an image. At most 64; near objects hide those behind them.",
+    object_keys};
 
 }  // namespace lfdsim

@@ -1,5 +1,7 @@
 #include "display/glass.h"
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -33,8 +35,6 @@ double powers(std::span<const double> pairs, double l) {
     for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) sum += pairs[k] * std::pow(l, pairs[k + 1]);
     return sum;
 }
-
-char small(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 
 }  // namespace
 
@@ -115,8 +115,6 @@ const ShippedGlass* shipped_glass(std::string_view name) {
     return found == all.end() ? nullptr : &*found;
 }
 
-bool same_name(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return small(x) == small(y); });
-}
+bool same_name(std::string_view a, std::string_view b) { return same_without_case(a, b); }
 
 }  // namespace lfdsim

@@ -43,11 +43,8 @@ constexpr Key<Inverse> inverse_keys[] = {
 }  // namespace
 
 template <>
-const Table<Inverse>& table_of<Inverse>() {
-    static constexpr Table<Inverse> table{
-        "inverse", "The inverse pick-up: for which eyes the panel picture is fitted, and how. See inverse.md.", inverse_keys};
-    return table;
-}
+constinit const Table<Inverse> TableOf<Inverse>::table{
+    "inverse", "The inverse pick-up: for which eyes the panel picture is fitted, and how. See inverse.md.", inverse_keys};
 template <>
 std::span<const std::string_view> words<ErrorOf>() {
     static constexpr std::string_view w[] = {"eye", "light"};

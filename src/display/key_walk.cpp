@@ -44,7 +44,7 @@ const T& fresh_one() {
 /// Calls visit(key, member) for each key of a table.
 template <class T, class Visit>
 void each_key(const Visit& visit) {
-    for (const Key<T>& key : table_of<T>().keys) std::visit([&](auto member) { visit(key, member); }, key.member);
+    for (const Key<T>& key : TableOf<T>::table.keys) std::visit([&](auto member) { visit(key, member); }, key.member);
 }
 
 /// The value that a key of a struct fills, and the one that a fresh struct has. What a walk does with them is compiled once for
@@ -73,7 +73,7 @@ std::optional<ValueAndDefault<Ref>> value_of(T& in, const Key<Struct>& key) {
 template <class Ref, class T, class Visit>
 void walk_values(T& in, const std::string& prefix, const Visit& visit) {
     using Struct = std::remove_const_t<T>;
-    for (const Key<Struct>& key : table_of<Struct>().keys) {
+    for (const Key<Struct>& key : TableOf<Struct>::table.keys) {
         if (const auto found = value_of<Ref>(in, key)) visit(prefix + std::string(key.name), info(key), found->value, found->fresh);
         if constexpr (has_parts<Struct>)
             std::visit(
@@ -121,9 +121,9 @@ void walk(T& in, const std::string& prefix, const Visit& visit) {
 // Adds the table of a struct, then those within it; of a kind, the tables of all its alternatives.
 template <class T>
 void add_tables(const std::string& path, PartKind is, std::vector<FormatTable>& all) {
-    all.push_back({path, table_of<T>().name, table_of<T>().doc, is, {}});
+    all.push_back({path, TableOf<T>::table.name, TableOf<T>::table.doc, is, {}});
     const std::size_t here = all.size() - 1;
-    for (const Key<T>& key : table_of<T>().keys)
+    for (const Key<T>& key : TableOf<T>::table.keys)
         if (const auto found = value_of<ConstValueRef>(fresh_one<T>(), key)) all[here].values.push_back({info(key), found->fresh});
     if constexpr (has_parts<T>)
         each_key<T>([&]<class Field>(const Key<T>& key, Field T::*member) {

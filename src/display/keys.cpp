@@ -217,84 +217,41 @@ std::string number(double x) {
 }  // namespace
 
 template <>
-const Table<Display>& table_of<Display>() {
-    static constexpr Table<Display> table{"", "", display_keys};
-    return table;
-}
+constinit const Table<Display> TableOf<Display>::table{"", "", display_keys};
 template <>
-const Table<Panel>& table_of<Panel>() {
-    static constexpr Table<Panel> table{
-        "panel", "The screen behind the lenses. It lies in z = 0, centred, and faces the viewer at +z.", panel_keys};
-    return table;
-}
+constinit const Table<Panel> TableOf<Panel>::table{
+    "panel", "The screen behind the lenses. It lies in z = 0, centred, and faces the viewer at +z.", panel_keys};
 template <>
-const Table<Layer>& table_of<Layer>() {
-    static constexpr Table<Layer> table{
-        "layer", "A plane plate on the panel, the first one lying on it: cover glass, polariser, adhesive. At most 8.", layer_keys};
-    return table;
-}
+constinit const Table<Layer> TableOf<Layer>::table{
+    "layer", "A plane plate on the panel, the first one lying on it: cover glass, polariser, adhesive. At most 8.", layer_keys};
 template <>
-const Table<Subpixel>& table_of<Subpixel>() {
-    static constexpr Table<Subpixel> table{
-        "subpixel", "A rectangle that emits one colour; every colour needs one. At most 32, for subpixels = \"custom\".",
-        subpixel_keys};
-    return table;
-}
+constinit const Table<Subpixel> TableOf<Subpixel>::table{
+    "subpixel", "A rectangle that emits one colour; every colour needs one. At most 32, for subpixels = \"custom\".",
+    subpixel_keys};
 template <>
-const Table<Lens>& table_of<Lens>() {
-    static constexpr Table<Lens> table{"lens", "One lens of the array.", lens_keys};
-    return table;
-}
+constinit const Table<Lens> TableOf<Lens>::table{"lens", "One lens of the array.", lens_keys};
 template <>
-const Table<PlanoConvex>& table_of<PlanoConvex>() {
-    static constexpr Table<PlanoConvex> table{"plano_convex", "A spherical plano-convex lens.", plano_convex_keys};
-    return table;
-}
+constinit const Table<PlanoConvex> TableOf<PlanoConvex>::table{"plano_convex", "A spherical plano-convex lens.", plano_convex_keys};
 template <>
-const Table<SurfaceLens>& table_of<SurfaceLens>() {
-    static constexpr Table<SurfaceLens> table{"surfaces", "A prescription of surfaces.", surfaces_keys};
-    return table;
-}
+constinit const Table<SurfaceLens> TableOf<SurfaceLens>::table{"surfaces", "A prescription of surfaces.", surfaces_keys};
 template <>
-const Table<IdealLens>& table_of<IdealLens>() {
-    static constexpr Table<IdealLens> table{"ideal", "A thin lens without aberrations.", ideal_keys};
-    return table;
-}
+constinit const Table<IdealLens> TableOf<IdealLens>::table{"ideal", "A thin lens without aberrations.", ideal_keys};
 template <>
-const Table<Pinhole>& table_of<Pinhole>() {
-    static constexpr Table<Pinhole> table{
-        "pinhole", "A black sheet with a hole for each lens, or for strips with a slit for each (a parallax barrier).",
-        pinhole_keys};
-    return table;
-}
+constinit const Table<Pinhole> TableOf<Pinhole>::table{
+    "pinhole", "A black sheet with a hole for each lens, or for strips with a slit for each (a parallax barrier).", pinhole_keys};
 template <>
-const Table<Surface>& table_of<Surface>() {
-    static constexpr Table<Surface> table{
-        "surface", "The surfaces of the lens, from the panel's side to the viewer's; one [[lens.surface]] each, at most 16.",
-        surface_keys};
-    return table;
-}
+constinit const Table<Surface> TableOf<Surface>::table{
+    "surface", "The surfaces of the lens, from the panel's side to the viewer's; one [[lens.surface]] each, at most 16.",
+    surface_keys};
 template <>
-const Table<LensArray>& table_of<LensArray>() {
-    static constexpr Table<LensArray> table{"array", "Arrangement of the lenses in front of the panel.", array_keys};
-    return table;
-}
+constinit const Table<LensArray> TableOf<LensArray>::table{"array", "Arrangement of the lenses in front of the panel.", array_keys};
 template <>
-const Table<Diffuser>& table_of<Diffuser>() {
-    static constexpr Table<Diffuser> table{
-        "diffuser", "A thin scattering sheet in front of the lenses. Without this table there is none.", diffuser_keys};
-    return table;
-}
+constinit const Table<Diffuser> TableOf<Diffuser>::table{
+    "diffuser", "A thin scattering sheet in front of the lenses. Without this table there is none.", diffuser_keys};
 template <>
-const Table<Camera>& table_of<Camera>() {
-    static constexpr Table<Camera> table{"camera", "The eye or camera that looks at the display.", camera_keys};
-    return table;
-}
+constinit const Table<Camera> TableOf<Camera>::table{"camera", "The eye or camera that looks at the display.", camera_keys};
 template <>
-const Table<Render>& table_of<Render>() {
-    static constexpr Table<Render> table{"render", "How pictures are computed.", render_keys};
-    return table;
-}
+constinit const Table<Render> TableOf<Render>::table{"render", "How pictures are computed.", render_keys};
 
 std::string Range::text() const {
     if (high == infinity) return fmt::format("{} or more, or inf", number(low));

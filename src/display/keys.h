@@ -8,7 +8,7 @@
 // FormatReference). A field of a type that no key has yet also needs that type in ValuesOf (of Panel, Display and Content: in their
 // MemberOf), and overloads of read_value() and toml_text() in files/description/values.h, of type_text() in format_reference.cpp
 // and of json_of() in report/folder/description.cpp. A new enumeration needs words<E>(), in the order of its values. A new struct
-// needs table_of(), its name in has_table, and in has_parts if it contains tables.
+// needs TableOf<>::table, its name in LFDSIM_STRUCTS_WITH_TABLES, and in has_parts if it contains tables.
 #pragma once
 #include "display/display.h"
 
@@ -105,35 +105,23 @@ struct Table {
 
 /// The table of a struct that has one.
 template <class T>
-const Table<T>& table_of();
-// clang-format off
-template <> const Table<Display>& table_of<Display>();
-template <> const Table<Panel>& table_of<Panel>();
-template <> const Table<Layer>& table_of<Layer>();
-template <> const Table<Subpixel>& table_of<Subpixel>();
-template <> const Table<Lens>& table_of<Lens>();
-template <> const Table<PlanoConvex>& table_of<PlanoConvex>();
-template <> const Table<SurfaceLens>& table_of<SurfaceLens>();
-template <> const Table<IdealLens>& table_of<IdealLens>();
-template <> const Table<Pinhole>& table_of<Pinhole>();
-template <> const Table<Surface>& table_of<Surface>();
-template <> const Table<LensArray>& table_of<LensArray>();
-template <> const Table<Errors>& table_of<Errors>();
-template <> const Table<Diffuser>& table_of<Diffuser>();
-template <> const Table<Camera>& table_of<Camera>();
-template <> const Table<Content>& table_of<Content>();
-template <> const Table<Inverse>& table_of<Inverse>();
-template <> const Table<ContentLight>& table_of<ContentLight>();
-template <> const Table<SceneObject>& table_of<SceneObject>();
-template <> const Table<Render>& table_of<Render>();
-// clang-format on
-
-template <class T, class... Structs>
-inline constexpr bool is_one_of = (std::is_same_v<T, Structs> || ...);
+struct TableOf {
+    static const Table<T> table;
+};
 template <class T>
-inline constexpr bool has_table =
-    is_one_of<T, Display, Panel, Layer, Subpixel, Lens, PlanoConvex, SurfaceLens, IdealLens, Pinhole, Surface, LensArray, Errors,
-              Diffuser, Camera, Content, Inverse, ContentLight, SceneObject, Render>;
+inline constexpr bool has_table = false;
+
+// clang-format off
+#define LFDSIM_STRUCTS_WITH_TABLES(OF) \
+    OF(Display) OF(Panel) OF(Layer) OF(Subpixel) OF(Lens) OF(PlanoConvex) OF(SurfaceLens) OF(IdealLens) OF(Pinhole) OF(Surface) \
+    OF(LensArray) OF(Errors) OF(Diffuser) OF(Camera) OF(Content) OF(Inverse) OF(ContentLight) OF(SceneObject) OF(Render)
+#define LFDSIM_HAS_TABLE(Struct) \
+    template <> const Table<Struct> TableOf<Struct>::table; \
+    template <> inline constexpr bool has_table<Struct> = true;
+// clang-format on
+LFDSIM_STRUCTS_WITH_TABLES(LFDSIM_HAS_TABLE)
+#undef LFDSIM_HAS_TABLE
+#undef LFDSIM_STRUCTS_WITH_TABLES
 
 /// What a field of a struct is: a value, a table, a table that may be absent, a list of tables, or one of several kinds, whose word
 /// and keys are in the same table.
@@ -164,7 +152,8 @@ inline constexpr PartKind part_kind = Part<std::remove_cvref_t<Field>>::is;
 
 /// Whether a struct has tables or a kind within it. All others have values only; this knowledge saves half a minute of compilation.
 template <class T>
-inline constexpr bool has_parts = is_one_of<T, Display, Panel, Lens, SurfaceLens, Content>;
+inline constexpr bool has_parts = std::is_same_v<T, Display> || std::is_same_v<T, Panel> || std::is_same_v<T, Lens> ||
+                                  std::is_same_v<T, SurfaceLens> || std::is_same_v<T, Content>;
 
 /// The table part of a dotted path: "lens.surface.0" of "lens.surface.0.conic", "" of "name".
 inline std::string_view table_of_path(std::string_view path) {

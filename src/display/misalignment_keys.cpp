@@ -41,13 +41,10 @@ constexpr Key<Errors> errors_keys[] = {
 }  // namespace
 
 template <>
-const Table<Errors>& table_of<Errors>() {
-    static constexpr Table<Errors> table{
-        "errors",
-        "Deviations of the array as built from the description. Pictures and measures are of the display with these errors; "
-        "elemental images are made without them, unless content.made_for says otherwise.",
-        errors_keys};
-    return table;
-}
+constinit const Table<Errors> TableOf<Errors>::table{
+    "errors",
+    "Deviations of the array as built from the description. Pictures and measures are of the display with these errors; "
+    "elemental images are made without them, unless content.made_for says otherwise.",
+    errors_keys};
 
 }  // namespace lfdsim

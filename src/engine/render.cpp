@@ -28,7 +28,6 @@ namespace lfdsim {
 namespace {
 
 constexpr int tile_width = 64, tile_height = 16;  // neighbouring pixels see nearby panel pixels: a tile's texels stay in the cache
-constexpr int most_threads = 1024;
 
 /// Calls paint(tile) for each tile of the crop, on all threads of the arena; it returns the samples that it took, or nothing where
 /// it was stopped. Returns the sum of the samples.

@@ -1,5 +1,6 @@
 #include "geometry/seen_width.h"
 
+#include "base/bisection.h"
 #include "base/constants.h"
 #include "geometry/diffuser_profile.h"
 
@@ -18,12 +19,8 @@ double seen_through_lens_mm(const Geometry& g, double eye_mm) {
 
 double even_width_of(Profile profile) {
     const ProfileFigures& figures = figures_of(profile);
-    double inside = 0, outside = figures.width;
-    for (int halved = 0; halved < 40; ++halved) {
-        const double middle = 0.5 * (inside + outside);
-        (figures.below(middle) < 0.5 + 0.5 * middle_share ? inside : outside) = middle;
-    }
-    return 2 * inside / middle_share;
+    const auto inside = [&](double place) { return figures.below(place) < 0.5 + 0.5 * middle_share; };
+    return 2 * bisected(0, figures.width, 40, inside).in / middle_share;
 }
 
 double seen_by_diffuser_mm(const Geometry& g, double eye_mm, Profile profile, double angle_deg, double above_mm) {

@@ -11,18 +11,14 @@ namespace {
 constexpr double same = 1e-9;  // pixels: places closer than this are one
 constexpr double third = 1.0 / 3;
 
-/// A rectangle, in pixels from the cell's top left corner.
-struct CellRect {
-    std::array<double, 2> from, to;
-    double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
-};
+// Rectangles are measured from the cell's top left corner here, until lit_rects() moves them.
 
-CellRect rect_of(const Subpixel& s) { return {{s.rect[0], s.rect[1]}, {s.rect[2], s.rect[3]}}; }
+SubpixelRect rect_of(const Subpixel& s) { return {{s.rect[0], s.rect[1]}, {s.rect[2], s.rect[3]}}; }
 
 /// Returns a rectangle shrunk about its centre by sqrt(q) in width and height, q the aperture ratio.
-CellRect shrunk(const CellRect& r, double aperture_ratio) {
+SubpixelRect shrunk(const SubpixelRect& r, double aperture_ratio) {
     const double half = 0.5 * std::sqrt(aperture_ratio);
-    CellRect out{};
+    SubpixelRect out{};
     for (std::size_t k = 0; k < 2; ++k) {
         const double middle = 0.5 * (r.from[k] + r.to[k]), reach = half * (r.to[k] - r.from[k]);
         out.from[k] = middle - reach;
@@ -34,10 +30,10 @@ CellRect shrunk(const CellRect& r, double aperture_ratio) {
 /// Returns the shrunk rectangle with its borders on a grid of `lines` a pixel. Its shorter side is rounded, then its longer one so
 /// that the area is nearest. It stays within the rounded borders of `r`, and a shrunk one is smaller than these, so that rectangles
 /// do not touch.
-CellRect shrunk_on_grid(const CellRect& r, double aperture_ratio, int lines) {
+SubpixelRect shrunk_on_grid(const SubpixelRect& r, double aperture_ratio, int lines) {
     const auto nearest = [](double x) { return std::floor(x + 0.5 + 1e-6); };
-    const CellRect lit = shrunk(r, aperture_ratio);
-    CellRect out{};
+    const SubpixelRect lit = shrunk(r, aperture_ratio);
+    SubpixelRect out{};
     double area = lit.area() * lines * lines;
     const std::size_t shorter = lit.to[1] - lit.from[1] < lit.to[0] - lit.from[0] ? 1 : 0;
     for (const std::size_t k : {shorter, 1 - shorter}) {
@@ -99,7 +95,7 @@ std::array<std::int64_t, 2> least_cell(const std::vector<Subpixel>& all, const s
 
 /// Appends the parts of a subpixel, one for each cell that it reaches into; as cells repeat, all are parts of the same cell. `lit`:
 /// its shrunk rectangle; `share`: its share of the channel's light.
-void add_parts(const Subpixel& s, const CellRect& lit, const std::array<std::int64_t, 2>& cell, double share,
+void add_parts(const Subpixel& s, const SubpixelRect& lit, const std::array<std::int64_t, 2>& cell, double share,
                std::vector<LitPart>& to) {
     const double width = double(cell[0]), height = double(cell[1]);
     for (double y = std::floor(lit.from[1] / height); y * height < lit.to[1] - same; ++y)
@@ -111,7 +107,7 @@ void add_parts(const Subpixel& s, const CellRect& lit, const std::array<std::int
                 part.from[k] = std::max(lit.from[k] - corner[k], 0.);
                 part.to[k] = std::min(lit.to[k] - corner[k], double(cell[k]));
             }
-            const CellRect here{part.from, part.to};
+            const SubpixelRect here{part.from, part.to};
             if (here.to[0] - here.from[0] <= same || here.to[1] - here.from[1] <= same) continue;
             part.share = share * here.area() / lit.area();
             to.push_back(part);
@@ -123,7 +119,7 @@ template <class Shrink>
 std::vector<LitPart> parts_of(const Panel& panel, const Shrink& shrink) {
     std::vector<LitPart> parts;
     if (panel.subpixels == SubpixelLayout::none) {
-        const CellRect lit = shrink({{0, 0}, {1, 1}});
+        const SubpixelRect lit = shrink({{0, 0}, {1, 1}});
         return {{3, {}, lit.from, lit.to, 1}};
     }
     const SubpixelCell cell = subpixel_cell(panel);
@@ -183,11 +179,11 @@ SubpixelCell subpixel_cell(const Panel& panel) {
 }
 
 std::vector<LitPart> lit_parts(const Panel& panel) {
-    return parts_of(panel, [&](const CellRect& r) { return shrunk(r, panel.aperture_ratio); });
+    return parts_of(panel, [&](const SubpixelRect& r) { return shrunk(r, panel.aperture_ratio); });
 }
 
 std::vector<LitPart> lit_parts_on_grid(const Panel& panel, int lines) {
-    return parts_of(panel, [&](const CellRect& r) { return shrunk_on_grid(r, panel.aperture_ratio, lines); });
+    return parts_of(panel, [&](const SubpixelRect& r) { return shrunk_on_grid(r, panel.aperture_ratio, lines); });
 }
 
 std::vector<LitPart> bounded_parts(const Panel& panel) {
@@ -217,19 +213,19 @@ std::vector<LitPart> bounded_parts(const Panel& panel) {
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> overlapping(const Panel& panel) {
-    struct SubpixelRect {
-        std::size_t of;  // number of the subpixel
-        CellRect rect;
+    struct PartOf {
+        std::size_t subpixel;  // its number
+        SubpixelRect rect;
     };
-    std::vector<SubpixelRect> parts;
+    std::vector<PartOf> parts;
     for (std::size_t k = 0; k < panel.custom.size(); ++k) {
         std::vector<LitPart> of_one;
         add_parts(panel.custom[k], rect_of(panel.custom[k]), subpixel_cell(panel).size, 1, of_one);
         for (const LitPart& p : of_one) {
-            for (const SubpixelRect& other : parts)
+            for (const PartOf& other : parts)
                 if (std::min(p.to[0], other.rect.to[0]) - std::max(p.from[0], other.rect.from[0]) > same &&
                     std::min(p.to[1], other.rect.to[1]) - std::max(p.from[1], other.rect.from[1]) > same)
-                    return std::pair(other.of, k);
+                    return std::pair(other.subpixel, k);
             parts.push_back({k, {p.from, p.to}});
         }
     }
@@ -300,12 +296,12 @@ double gain(const Panel& panel, int channel) {
 
 double peak(const Panel& panel) { return std::max({gain(panel, 0), gain(panel, 1), gain(panel, 2)}); }
 
-std::vector<LitRect> lit_rects(const Panel& panel, int channel, std::int64_t column, std::int64_t row) {
+std::vector<SubpixelRect> lit_rects(const Panel& panel, int channel, std::int64_t column, std::int64_t row) {
     const SubpixelCell cell = subpixel_cell(panel);
     const std::array<std::int64_t, 2> pixel{floor_mod(column, cell.size[0]), floor_mod(row, cell.size[1])};
-    std::vector<LitRect> rects;
-    const auto add = [&](const CellRect& r) {
-        const CellRect lit = shrunk(r, panel.aperture_ratio);
+    std::vector<SubpixelRect> rects;
+    const auto add = [&](const SubpixelRect& r) {
+        const SubpixelRect lit = shrunk(r, panel.aperture_ratio);
         const std::array<double, 2> centre{double(pixel[0]) + 0.5, double(pixel[1]) + 0.5};
         rects.push_back({{lit.from[0] - centre[0], lit.from[1] - centre[1]}, {lit.to[0] - centre[0], lit.to[1] - centre[1]}});
     };
@@ -318,7 +314,7 @@ std::vector<LitRect> lit_rects(const Panel& panel, int channel, std::int64_t col
 std::optional<std::array<double, 2>> centroid(const Panel& panel, int channel, std::int64_t column, std::int64_t row) {
     double area = 0;
     std::array<double, 2> sum{};
-    for (const LitRect& r : lit_rects(panel, channel, column, row)) {
+    for (const SubpixelRect& r : lit_rects(panel, channel, column, row)) {
         area += r.area();
         for (std::size_t k = 0; k < 2; ++k) sum[k] += r.area() * 0.5 * (r.from[k] + r.to[k]);
     }

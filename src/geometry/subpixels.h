@@ -89,14 +89,14 @@ double gain(const Panel&, int channel);
 /// Returns the largest gain of the three channels.
 double peak(const Panel&);
 
-/// A rectangle in which a pixel emits: from its centre, pixels to the right and down.
-struct LitRect {
+/// A rectangle in which light is emitted, in pixels to the right and down of a pixel's centre, or of a place that is named.
+struct SubpixelRect {
     std::array<double, 2> from, to;
     double area() const { return (to[0] - from[0]) * (to[1] - from[1]); }
 };
 /// Returns the rectangles of the pixel (column, row) in a channel (0, 1, 2), shrunk to the aperture ratio; none where the channel
 /// has no subpixel there.
-std::vector<LitRect> lit_rects(const Panel&, int channel, std::int64_t column, std::int64_t row);
+std::vector<SubpixelRect> lit_rects(const Panel&, int channel, std::int64_t column, std::int64_t row);
 
 /// Returns the centroid of a channel's light of the pixel (column, row), from the pixel's centre: pixels to the right and down;
 /// nothing where the channel has no subpixel there.

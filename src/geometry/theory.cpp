@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/bisection.h"
 #include "base/constants.h"
 #include "geometry/dark_bands.h"
 #include "geometry/geometry.h"
@@ -21,13 +22,9 @@ double exact_angle_deg(const Geometry& g, double width_mm) {
         const double slope = sine / std::sqrt(1 - sine * sine);
         return slope * reach_below_thin_lens_mm(g, slope * slope);
     };
-    double low = 0, high = 1;
-    while (true) {
-        const double middle = (low + high) / 2;
-        if (middle <= low || middle >= high) break;
-        (half_width(middle) < width_mm / 2 ? low : high) = middle;
-    }
-    return 2 * std::asin(high) / degree;  // 180 if even the steepest rays do not reach the ends
+    const auto within = [&](double sine) { return half_width(sine) < width_mm / 2; };
+    // 180 if even the steepest rays do not reach the ends
+    return 2 * std::asin(bisected(0, 1, to_last_bit, within).out) / degree;
 }
 
 /// Returns the figures along an axis of the array; L is the central depth, mm.

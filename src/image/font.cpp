@@ -1,5 +1,7 @@
 #include "image/font.h"
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +44,7 @@ char32_t take_character(std::string_view& text) {
     const std::size_t bytes = lead < 0xc0 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
     char32_t code = bytes == 1 ? lead : lead & (0x7fu >> bytes);
     std::size_t n = 1;
-    for (; n < bytes && n < text.size() && (text[n] & 0xc0) == 0x80; ++n) code = code << 6 | (text[n] & 0x3f);
+    for (; n < bytes && n < text.size() && !begins_character(text[n]); ++n) code = code << 6 | (text[n] & 0x3f);
     text.remove_prefix(n);
     return n < bytes || (bytes == 1 && lead >= 0x80) ? 0xfffd : code;
 }

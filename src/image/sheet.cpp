@@ -1,5 +1,6 @@
 #include "image/sheet.h"
 
+#include "base/text.h"
 #include "image/font.h"
 
 #include <algorithm>
@@ -11,9 +12,7 @@ namespace {
 
 constexpr std::size_t most_lines = 4;  // of a label
 
-// Whether a byte of UTF-8 begins a character; a degree sign, for example, has two bytes.
-bool begins_letter(char c) { return (c & 0xc0) != 0x80; }
-std::size_t letters_of(const std::string& text) { return std::size_t(std::count_if(text.begin(), text.end(), begins_letter)); }
+std::size_t letters_of(const std::string& text) { return std::size_t(std::count_if(text.begin(), text.end(), begins_character)); }
 
 void paste(const Image& from, Image& to, int x, int y) {
     for (int row = 0; row < from.height; ++row) std::copy_n(from.at(0, row), std::size_t(from.width) * 3, to.at(x, y + row));
@@ -22,7 +21,7 @@ void paste(const Image& from, Image& to, int x, int y) {
 std::string first_letters(const std::string& text, std::size_t letters) {
     std::size_t end = 0;
     for (; end < text.size(); ++end)
-        if (begins_letter(text[end]) && letters-- == 0) break;
+        if (begins_character(text[end]) && letters-- == 0) break;
     return text.substr(0, end);
 }
 

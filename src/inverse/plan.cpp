@@ -72,7 +72,7 @@ EyeCounts count(const Request& request, std::span<const Eye> eyes) {
             bool lit = false;
             for (std::size_t s = p; s < p + samples; ++s)
                 if (found[s].share > 0) {
-                    std::atomic_ref(met[subpixels ? found[s].place >> 2 : found[s].place]).store(1, std::memory_order_relaxed);
+                    std::atomic_ref(met[found[s].pixel(subpixels)]).store(1, std::memory_order_relaxed);
                     counts.lit += 1 / double(samples);  // for one ray an element
                     lit = true;
                 }

@@ -30,12 +30,11 @@ std::int64_t ViewRows::rays() const {
 }
 
 void ViewRows::add(const WavelengthRays& light, const PanelRay& ray, std::vector<PanelRay>& row) const {
-    constexpr std::uint32_t all = 3;
     const float share = ray.share * light.weight / float(light.rays.samples());
-    const std::uint32_t pixel = subpixels_ ? ray.place >> 2 : ray.place, shown = subpixels_ ? ray.place & 3 : all;
+    const std::uint32_t pixel = ray.pixel(subpixels_);
     if (pixels_) return row.push_back({pixel, share});
     for (std::uint32_t c = 0; c < 3; ++c)
-        if ((shown == all || shown == c) && (light.channel < 0 || std::uint32_t(light.channel) == c))
+        if (ray.lights(c, subpixels_) && (light.channel < 0 || std::uint32_t(light.channel) == c))
             row.push_back({pixel * 4 + c, share});
 }
 

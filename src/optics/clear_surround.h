@@ -19,8 +19,8 @@ struct Crossing {
     LFDSIM_FN void take(Mask<F> valid, F path_length, Vec3<F> n, Cell<F> in) {
         const Mask<F> nearer = valid && (path_length < t);
         t = select(nearer, path_length, t);
-        normal = {select(nearer, n.x, normal.x), select(nearer, n.y, normal.y), select(nearer, n.z, normal.z)};
-        cell = {select(nearer, in.i, cell.i), select(nearer, in.j, cell.j)};
+        normal = choose(nearer, n, normal);
+        cell = choose(nearer, in, cell);
         found = found || nearer;
     }
 };
@@ -194,16 +194,6 @@ LFDSIM_FN void cross_walls(const TracedDisplay<Scalar<F>>& display, const Extent
     }
 }
 
-/// Computes the path lengths at which a ray enters and leaves low <= z <= high; `in` > `out` where it does not.
-template <class F>
-LFDSIM_FN void cross_slab(Vec3<F> at, Vec3<F> to, F low, F high, F& in, F& out) {
-    const F huge = F(Scalar<F>(1e30)), a = (low - at.z) / to.z, b = (high - at.z) / to.z;
-    const Mask<F> level = abs(to.z) < F(Scalar<F>(1e-12));
-    const Mask<F> within = (at.z >= low) && (at.z <= high);
-    in = select(level, select(within, -huge, huge), min(a, b));
-    out = select(level, select(within, huge, -huge), max(a, b));
-}
-
 /// A packet of rays among glass.
 template <class F>
 struct GlassRays {
@@ -228,7 +218,7 @@ LFDSIM_FN void next_in_clear(const TracedDisplay<Scalar<F>>& display, const Exte
     if (any(within)) solid(rays.cell, within, false);
     if (none(without)) return;
     F in, out;
-    cross_slab(rays.at, rays.to, F(display.body_bottom), F(display.body_top), in, out);
+    cross_slab(rays.at.z, rays.to.z, Scalar<F>(1e-12), F(display.body_bottom), F(display.body_top), in, out);
     const F begin = max(in, F(0));
     walk_cells(display, extent, rays.at.x, rays.at.y, rays.to.x, rays.to.y, begin, out, without,
                [&](Cell<F> cell, Mask<F> active) { return solid(cell, active, true) && active; });
@@ -257,7 +247,8 @@ LFDSIM_FN void next_on_face(const TracedDisplay<Scalar<F>>& display, const Exten
     if (surface.shape == Shape::plane) return;
     F in, out;
     const F edge = F(S(1e-4));  // mm: the zone's border belongs to it
-    cross_slab(rays.at, rays.to, F(surface.z + surface.low) - edge, F(surface.z + surface.high) + edge, in, out);
+    cross_slab(rays.at.z, rays.to.z, Scalar<F>(1e-12), F(surface.z + surface.low) - edge, F(surface.z + surface.high) + edge, in,
+               out);
     walk_cells(display, extent, rays.at.x, rays.at.y, rays.to.x, rays.to.y, max(in, F(0)), out, active,
                [&](Cell<F> cell, Mask<F> here) {
                    const F before = best.t;
@@ -305,10 +296,9 @@ LFDSIM_FN void cross(const TracedDisplay<Scalar<F>>& display, const Crossing<F>&
         const F c_thin = select(display.glued ? n2 < n1 : rays.inside, c2, c1);
         weight = select(refracted, weight * transmittance(display.fresnel, schlick_t0, n1, n2, c1, c2, c_thin), weight);
     }
-    rays.at = {select(active, i.x * here.t + rays.at.x, rays.at.x), select(active, i.y * here.t + rays.at.y, rays.at.y),
-               select(active, i.z * here.t + rays.at.z, rays.at.z)};
-    rays.to = {select(active, to.x, i.x), select(active, to.y, i.y), select(active, to.z, i.z)};
-    rays.cell = {select(refracted, here.cell.i, rays.cell.i), select(refracted, here.cell.j, rays.cell.j)};
+    rays.at = choose(active, {i.x * here.t + rays.at.x, i.y * here.t + rays.at.y, i.z * here.t + rays.at.z}, rays.at);
+    rays.to = choose(active, to, i);
+    rays.cell = choose(refracted, here.cell, rays.cell);
     // Downwards out of a face, or sideways out of a wall below the slab.
     const Mask<F> down = (here.normal.z < F(0)) || ((here.normal.z == F(0)) && (rays.at.z < F(last.z + last.rim)));
     rays.below = (rays.below && !refracted) || (refracted && rays.inside && down);

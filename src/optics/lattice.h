@@ -15,6 +15,11 @@ template <class F>
 struct Cell {
     F i, j;
 };
+/// Returns `a` in the lanes of `first`, `b` in the others.
+template <class F>
+LFDSIM_FN Cell<F> choose(Mask<F> first, Cell<F> a, Cell<F> b) {
+    return {select(first, a.i, b.i), select(first, a.j, b.j)};
+}
 
 /// A vector with components along x and y: a point or a difference, in mm, in the array's frame or, where a function says so, in
 /// the display's.

@@ -58,6 +58,16 @@ LFDSIM_FN void walk_staggered(const TracedDisplay<Scalar<F>>& display, const Ext
     }
 }
 
+/// Computes the s at which a line at + m s enters and leaves low <= at <= high along one axis; `in` > `out` where it does not. A
+/// line of smaller slope than `level` is parallel to the slab.
+template <class F>
+LFDSIM_FN void cross_slab(F at, F m, Scalar<F> level, F low, F high, F& in, F& out) {
+    const F huge = F(Scalar<F>(1e30)), a = (low - at) / m, b = (high - at) / m;
+    const Mask<F> parallel = abs(m) < F(level), within = (at >= low) && (at <= high);
+    in = select(parallel, select(within, -huge, huge), min(a, b));
+    out = select(parallel, select(within, huge, -huge), max(a, b));
+}
+
 /// Walks cell by cell along the line (x + mx s, y + my s), from <= s <= depth, in the order in which the line enters them, and
 /// calls try_cell(cell, active) in each that holds a lens; it returns the lanes that are done. Exact at any slope: no cell is
 /// skipped. s is depth in z or path length, as the caller likes; m is the lateral displacement per s.
@@ -69,17 +79,10 @@ LFDSIM_FN void walk_cells(const TracedDisplay<Scalar<F>>& display, const Extent<
     const F px = F(lattice.pitch[0]), py = F(lattice.pitch[1]), half_x = F(lattice.half_pitch[0]),
             half_y = F(lattice.half_pitch[1]);
     // s at the borders of a box about all cells, so that a ray from outside starts where it enters.
-    auto axis = [&](F at, F m, F low, F high, F& in, F& out) {
-        const F a = (low - at) / m, b = (high - at) / m;
-        const Mask<F> still = abs(m) < F(Scalar<F>(1e-20));
-        const Mask<F> within = (at >= low) && (at <= high);
-        in = select(still, select(within, -huge, huge), min(a, b));
-        out = select(still, select(within, huge, -huge), max(a, b));
-    };
     F in_x, out_x, in_y, out_y;
     const F right = F(extent.high_i) * px + half_x, beyond = F(reach_of_cell(lattice));
-    axis(x, mx, F(extent.low_i) * px - half_x, lattice.staggered ? right + half_x : right, in_x, out_x);
-    axis(y, my, F(extent.low_j) * py - beyond, F(extent.high_j) * py + beyond, in_y, out_y);
+    cross_slab(x, mx, Scalar<F>(1e-20), F(extent.low_i) * px - half_x, lattice.staggered ? right + half_x : right, in_x, out_x);
+    cross_slab(y, my, Scalar<F>(1e-20), F(extent.low_j) * py - beyond, F(extent.high_j) * py + beyond, in_y, out_y);
     const F begin = max(max(in_x, in_y), from), end = min(min(out_x, out_y), depth);
     active = active && (begin <= end);
     if (lattice.staggered) return walk_staggered(display, extent, x, y, mx, my, begin, end, active, try_cell);

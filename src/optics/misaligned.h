@@ -66,12 +66,6 @@ LFDSIM_FN Encounter<F> meet_misaligned(const TracedDisplay<Scalar<F>>& display, 
     return at;
 }
 
-/// Returns `a` in the lanes of `first`, `b` in the others.
-template <class F>
-LFDSIM_FN Vec3<F> choose(Mask<F> first, Vec3<F> a, Vec3<F> b) {
-    return {select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};
-}
-
 /// Replaces `to` by `from` in the lanes of `taken`, which all enter their lens.
 template <class F>
 LFDSIM_FN void take(Mask<F> taken, const Encounter<F>& from, Encounter<F>& to) {
@@ -79,7 +73,7 @@ LFDSIM_FN void take(Mask<F> taken, const Encounter<F>& from, Encounter<F>& to) {
     const LensPose<F>&a = from.pose, &b = to.pose;
     to.pose = {one(a.x, b.x),         one(a.y, b.y),         one(a.z, b.z),         one(a.curvature, b.curvature),
                one(a.cos_x, b.cos_x), one(a.sin_x, b.sin_x), one(a.cos_y, b.cos_y), one(a.sin_y, b.sin_y)};
-    to.cell = {one(from.cell.i, to.cell.i), one(from.cell.j, to.cell.j)};
+    to.cell = choose(taken, from.cell, to.cell);
     to.entering = {choose(taken, from.entering.at, to.entering.at), choose(taken, from.entering.to, to.entering.to)};
     to.hit = {choose(taken, from.hit.at, to.hit.at), choose(taken, from.hit.normal, to.hit.normal), one(from.hit.cos, to.hit.cos),
               one(from.hit.cos2, to.hit.cos2), (taken && from.hit.ok) || (!taken && to.hit.ok)};
@@ -305,19 +299,6 @@ LFDSIM_FN Vec3<F> wedged(const MisalignedArray<Scalar<F>>& misaligned, bool in, 
         return v.x * of(0) + v.y * of(1) + v.z * of(2);
     };
     return {row(0), row(1), row(2)};
-}
-
-/// Returns the middle of a lens's hole, `below_vertex` mm below the vertex about which the lens tilts; of a cell without a lens
-/// that of a lens at its lattice position. The frame is the one turned about z alone, z from the array's vertex plane. y: of any
-/// point of a strip's axis.
-template <class S>
-LFDSIM_FN Vec3<S> middle_of_hole(const TracedDisplay<S>& display, const Extent<S>& extent, Cell<S> lens, S y, S below_vertex) {
-    const bool there = extent.holds(lens);
-    const LensPose<S> pose = there ? pose_of<S>(display, extent, lens, there) : LensPose<S>{0, 0, 0, 1, 1, 0, 1, 0};
-    const Vec2<S> axis = axis_of(display.lattice, lens);
-    const Vec3<S> off = pose.turned_out({S(0), S(0), -below_vertex});
-    const Vec3<S> at{axis.x + pose.x + off.x, display.lattice.strips ? y : axis.y + pose.y + off.y, pose.z + off.z};
-    return display.misaligned.wedged ? wedged<S>(display.misaligned, false, at) : at;
 }
 
 /// Returns a ray in the array's frame, z from the vertex plane. `ray` is in the frame turned about z alone and starts at the height

@@ -121,7 +121,7 @@ struct MovedCaps {
         const S low = surface.z + min(surface.low, surface.rim) + (misaligned.lowest < 0 ? misaligned.lowest : S(0)) - edge,
                 high = surface.z + max(surface.high, surface.rim) + (misaligned.highest > 0 ? misaligned.highest : S(0)) + edge;
         F in, out;
-        cross_slab(rays.at, rays.to, F(low), F(high), in, out);
+        cross_slab(rays.at.z, rays.to.z, Scalar<F>(1e-12), F(low), F(high), in, out);
         in = max(in, F(0));
         const Extent<S> wider{extent.low_i - 1, extent.high_i + 1, extent.low_j - 1, extent.high_j + 1};
         const F r2 = F(misaligned.radius * misaligned.radius), across_to = across(display.lattice, rays.to.y),

@@ -56,13 +56,9 @@ LFDSIM_RARE void meet_neighbours(const TracedDisplay<Scalar<F>>& display, const 
         if (none(active)) return active;
         const Hit<F> next = meet_first<facts>(display, ray, here);
         const Mask<F> met = active && next.ok;
-        auto choose = [&](F a, F b) { return select(met, a, b); };
-        hit = {{choose(next.at.x, hit.at.x), choose(next.at.y, hit.at.y), choose(next.at.z, hit.at.z)},
-               {choose(next.normal.x, hit.normal.x), choose(next.normal.y, hit.normal.y), choose(next.normal.z, hit.normal.z)},
-               choose(next.cos, hit.cos),
-               choose(next.cos2, hit.cos2),
-               hit.ok || met};
-        cell = {choose(here.i, cell.i), choose(here.j, cell.j)};
+        hit = {choose(met, next.at, hit.at), choose(met, next.normal, hit.normal), select(met, next.cos, hit.cos),
+               select(met, next.cos2, hit.cos2), hit.ok || met};
+        cell = choose(met, here, cell);
         return met;
     };
     const F depth = F(display.zone_top - display.zone_bottom);

@@ -14,6 +14,11 @@ template <class F>
 LFDSIM_FN F dot(Vec3<F> a, Vec3<F> b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// Returns `a` in the lanes of `first`, `b` in the others.
+template <class F>
+LFDSIM_FN Vec3<F> choose(Mask<F> first, Vec3<F> a, Vec3<F> b) {
+    return {select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};
+}
 
 /// A ray: position in mm, x and y from a lens's axis, z from the vertex of the current surface; unit direction.
 template <class F>
@@ -106,17 +111,17 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
     Mask<F> real = disc > F(0);
     Vec3<F> p{};
     // Moves p to the path length `at`, and z and d to the sag and slope there; returns whether the sheet extends as far as there.
-    auto pose = [&](F at) {
+    auto move_to = [&](F at) {
         p = {ray.at.x + ray.to.x * at, ray.at.y + ray.to.y * at, ray.to.z * at};
         Mask<F> sheet;
         sag(surface, p.x * p.x + p.y * p.y, z, d, sheet);
         return sheet;
     };
-    Mask<F> sheet = pose(t);
+    Mask<F> sheet = move_to(t);
     if (surface.terms > 0) {
         // Where the ray misses the conic, start from the vertex plane.
         t = select(real, t, F(0));
-        sheet = pose(t);
+        sheet = move_to(t);
         real = sheet || !sheet;  // all lanes
         Mask<F> moving = real;
         const F tolerance = F(Scalar<F>(sizeof(Scalar<F>) == 4 ? 1e-6 : 1e-13));
@@ -125,7 +130,7 @@ LFDSIM_FN Hit<F> meet_asphere(const Surface& surface, Ray<F> ray) {
             const F slope = ray.to.z - d * (p.x * ray.to.x + p.y * ray.to.y);
             const F change = (p.z - z) / slope;
             t = select(moving, t - change, t);
-            sheet = pose(t);
+            sheet = move_to(t);
             moving = moving && (abs(change) > tolerance);
         }
         real = sheet && (abs(p.z - z) < F(Scalar<F>(1e-4)));

@@ -1,6 +1,6 @@
-#include "analysis/core/figure_json.h"
 #include "analysis/core/measure.h"
 #include "analysis/pictures/views.h"
+#include "base/json_utf8.h"
 #include "base/seconds.h"
 #include "engine/devices/devices.h"
 #include "engine/devices/memory.h"
@@ -22,14 +22,13 @@
 #include <nanobind/stl/vector.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 namespace lfdsim::python {
 namespace {
 
 namespace nb = nanobind;
-
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 /// What one measure found of one display.
 struct Measured {
@@ -65,17 +64,7 @@ struct Measured {
         return all;
     }
     /// The findings as a list in JSON; numbers that are not finite become null.
-    std::string findings() const {
-        Json all = Json::array();
-        for (const Finding& f : result.findings)
-            all.push_back({{"what", f.what},
-                           {"unit", f.unit},
-                           {"measured", numbers_json(f.measured)},
-                           {"error", numbers_json(f.error)},
-                           {"theory", numbers_json(f.theory)},
-                           {"remark", f.remark}});
-        return dump(all);
-    }
+    std::string findings() const { return json_utf8(to_json(result.findings)); }
 
     /// Writes the files and the report that `lfdsim analyze` writes. Throws InputError for a folder of other results, unless
     /// `replace`.
@@ -95,22 +84,24 @@ struct Measured {
 /// Throws InputError for options that measures do not check themselves.
 void check_options(const AnalysisOptions& options) {
     std::vector<Problem> problems;
-    const auto rising = [&](const char* name, const std::vector<double>& values, double low, double high) {
+    const auto rising = [&](const char* name, const std::vector<double>& values, double most) {
         for (std::size_t k = 0; k < values.size(); ++k)
-            if (!(values[k] >= low && values[k] <= high && (k == 0 || values[k] > values[k - 1])))
+            if (!(std::abs(values[k]) <= most && (k == 0 || values[k] > values[k - 1])))
                 return problems.push_back(
-                    {name, fmt::format("has {} at place {}; give rising values within {} to {}", values[k], k, low, high)});
-        if (values.size() > 10001) problems.push_back({name, fmt::format("has {} values, allowed are 10001", values.size())});
+                    {name, fmt::format("has {} at place {}; give rising values within {} to {}", values[k], k, -most, most)});
+        if (values.size() > AnalysisLimits::values)
+            problems.push_back({name, fmt::format("has {} values, allowed are {}", values.size(), AnalysisLimits::values)});
     };
     const auto positive = [&](const char* name, double value, double most) {
         if (!(value > 0 && value <= most))
             problems.push_back({name, fmt::format("is {}; allowed is more than 0, up to {}", value, most)});
     };
-    rising("angles_deg", options.angles_deg, -80, 80);
-    rising("depths_mm", options.depths_mm, -1e6, 1e6);
-    if (options.viewing_distance_mm) positive("viewing_distance_mm", *options.viewing_distance_mm, 1e6);
-    positive("eye_distance_mm", options.eye_distance_mm, 1000);
-    positive("wavelength_nm", options.wavelength_nm, 1e5);
+    rising("angles_deg", options.angles_deg, AnalysisLimits::angle_deg);
+    rising("depths_mm", options.depths_mm, AnalysisLimits::depth_mm);
+    if (options.viewing_distance_mm)
+        positive("viewing_distance_mm", *options.viewing_distance_mm, AnalysisLimits::viewing_distance_mm);
+    positive("eye_distance_mm", options.eye_distance_mm, AnalysisLimits::eye_distance_mm);
+    positive("wavelength_nm", options.wavelength_nm, AnalysisLimits::wavelength_nm);
     if (!problems.empty()) throw InputError(problems);
 }
 
@@ -151,8 +142,8 @@ nb::typed<nb::list, nb::typed<nb::tuple, std::string, std::string, std::string, 
 
 void add_analyze(nb::module_& m) {
     nb::class_<Measured>(m, "Measured")
-        .def("figures", [](const Measured& r) { return dump(r.result.figures); })
-        .def("notes", [](const Measured& r) { return dump(r.result.notes); })
+        .def("figures", [](const Measured& r) { return json_utf8(r.result.figures); })
+        .def("notes", [](const Measured& r) { return json_utf8(r.result.notes); })
         .def("findings", &Measured::findings)
         .def("remarks", [](const Measured& r) { return r.result.remarks; })
         .def("warnings", [](const Measured& r) { return r.notes; })

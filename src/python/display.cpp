@@ -1,3 +1,4 @@
+#include "base/json_utf8.h"
 #include "files/description/display_file.h"
 
 #include "base/printable.h"
@@ -151,7 +152,7 @@ Display restored(const State& of) {
 
 /// The display with a model in place of its content. Throws InputError if the name is empty.
 Display with_model(Display display, const std::string& model) {
-    if (model.empty()) throw InputError("model", "the name is empty; give a mesh file or built-in:spheres");
+    require_name(model, "model", "a mesh file or built-in:spheres");
     display.content.model = model;
     display.content.objects.clear();
     return placed(std::move(display));
@@ -167,7 +168,7 @@ std::pair<std::string, std::string> drawings(const Display& display) {
 std::string check(const Display& display, const nb::object& progress, bool warnings) {
     Json json;
     run(progress, [&](Job&) { json = check_json(display, warnings); });
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_utf8(json);
 }
 
 }  // namespace

@@ -55,14 +55,7 @@ Overlay overlay(const AnyPixels& view, const AnyPixels& photo, const Corners& co
 
 nb::typed<nb::dict, std::string, nb::any> figures(const Overlay& o) {
     nb::dict all;
-    all["ssim"] = o.match.ssim;
-    all["rmse"] = o.match.rmse;
-    all["psnr_db"] = o.match.psnr_db;
-    all["gains"] = nb::list(nb::cast(o.match.gains));
-    all["blur_px"] = o.match.blur_px;
-    all["pixels"] = o.screen.pixels();
-    all["unsaturated_share"] = o.match.used;
-    all["corners"] = o.corners;
+    visit_figures(o, [&](const char* name, const auto& value) { all[name] = value; });
     return all;
 }
 

@@ -173,13 +173,7 @@ nb::typed<nb::dict, std::string, double> compare(const AnyPixels& a, const AnyPi
         }
     });
     nb::dict all;
-    all["ssim"] = c.ssim;
-    all["psnr_db"] = c.psnr_db;
-    all["rmse"] = c.rmse;
-    all["max_difference"] = c.max_difference;
-    all["max_column"] = c.max_column;
-    all["max_row"] = c.max_row;
-    all["max_channel"] = c.max_channel;
+    visit_figures(c, [&](const char* name, auto value) { all[name] = value; });
     return all;
 }
 

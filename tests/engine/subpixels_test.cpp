@@ -133,7 +133,7 @@ double mean_over(const ReadPanel& panel, double x, double y, double wide, double
     double sum = 0;
     for (std::int64_t row = top; row <= bottom; ++row)
         for (std::int64_t column = left; column <= right; ++column)
-            for (const LitRect& lit : lit_rects(panel.panel, c, column, row)) {
+            for (const SubpixelRect& lit : lit_rects(panel.panel, c, column, row)) {
                 const double at_x = double(column) + 0.5, at_y = double(row) + 0.5;
                 const double columns = double(panel.panel.pixels[0]), rows = double(panel.panel.pixels[1]);
                 sum += part(x, wide, std::max(at_x + lit.from[0], 0.0), std::min(at_x + lit.to[0], columns)) *

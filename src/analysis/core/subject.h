@@ -26,6 +26,12 @@ struct AnalysisOptions {
     std::string device = {};                           // of renderings, as RenderOptions::device
 };
 
+/// The limits of options that a user sets. Angles and depths may be negative.
+struct AnalysisLimits {
+    static constexpr double angle_deg = 80, depth_mm = 1e6, viewing_distance_mm = 1e6, eye_distance_mm = 1000, wavelength_nm = 1e5;
+    static constexpr std::size_t values = 10001;  // of angles or of depths
+};
+
 /// Thrown if the caller cancels the work; nothing of the current measure is kept.
 struct Stopped {};
 

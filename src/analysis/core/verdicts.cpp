@@ -2,6 +2,7 @@
 
 #include "analysis/core/quick_look.h"
 #include "analysis/crosstalk/intended_panel.h"
+#include "base/bisection.h"
 #include "base/constants.h"
 #include "checks/first_order.h"
 #include "content/pickup/shown_points.h"
@@ -56,12 +57,8 @@ std::optional<Stop> widest_stop(Display d, const Geometry& g, Good good) {
         return valid(d) && good(d, radius);
     };
     const double all = 0.5 * widest_aperture_mm(g);
-    double least = 0.2 * all, most = all;
-    if (!holds(least)) return {};
-    for (int halved = 0; halved < 6; ++halved) {
-        const double middle = 0.5 * (least + most);
-        (holds(middle) ? least : most) = middle;
-    }
+    if (!holds(0.2 * all)) return {};
+    const double least = bisected(0.2 * all, all, 6, holds).in;
     const double share = least / all;
     return Stop{least, g.lattice.strips ? share : share * share};
 }

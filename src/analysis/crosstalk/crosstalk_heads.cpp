@@ -3,6 +3,7 @@
 #include "analysis/core/figure_json.h"
 #include "analysis/crosstalk/crosstalk_eyes.h"
 #include "analysis/fov/thresholds.h"
+#include "base/bisection.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -88,12 +89,9 @@ Limit head_limit(const Eyes& eyes, const Heads& all, int side, double errors) {
     const std::size_t last = side < 0 ? 0 : all.places.size() - 1;
     while (n != last && allowed(all.found[n + std::size_t(side)])) n += std::size_t(side);
     if (n == last) return Limit::none(fmt::format("the criterion is still met at {:.4g}, where the search ended", all.places[n]));
-    double good = all.places[n], bad = all.places[n + std::size_t(side)];
-    for (int k = 0; k < halvings; ++k) {
-        const double between = 0.5 * (good + bad);
-        (allowed(look_with_both(eyes, between, all.apart)) ? good : bad) = between;
-    }
-    return {0.5 * (good + bad), 0.5 * std::abs(bad - good), {}};
+    const Bisected end = bisected(all.places[n], all.places[n + std::size_t(side)], halvings,
+                                  [&](double place) { return allowed(look_with_both(eyes, place, all.apart)); });
+    return {end.middle(), 0.5 * std::abs(end.out - end.in), {}};
 }
 
 /// Returns the interval of head positions in which both eyes have tolerable crosstalk. Its error is half the last step and the

@@ -7,8 +7,6 @@
 
 namespace lfdsim {
 
-inline constexpr std::array<const char*, 3> colour_of_channel{"red", "green", "blue"};
-
 /// Returns the figures of theory and colour fringes if channels differ; null if they do not.
 Json colours_json(const MtfCurves&);
 

@@ -1,5 +1,6 @@
 #include "analysis/spots/ray_fan.h"
 
+#include "base/bisection.h"
 #include "base/constants.h"
 #include "geometry/diffuser_profile.h"
 
@@ -42,14 +43,7 @@ std::vector<double> open_places(const LensTrace& lens, Point panel, double low, 
     for (int i = 0; i <= rays; ++i) {
         const double s = i == rays ? high : low + (high - low) * (i + 0.5) / rays;
         const bool is_open = i < rays && open(s);
-        if (is_open != was_open) {
-            double in = is_open ? s : before, out = is_open ? before : s;
-            for (int halved = 0; halved < 60; ++halved) {
-                const double middle = 0.5 * (in + out);
-                (open(middle) ? in : out) = middle;
-            }
-            places.push_back(in);
-        }
+        if (is_open != was_open) places.push_back((is_open ? bisected(s, before, 60, open) : bisected(before, s, 60, open)).in);
         if (is_open) places.push_back(s);
         was_open = is_open;
         before = s;

@@ -19,7 +19,6 @@ namespace {
 constexpr std::array colour_rays{193, 181, 173, 163};
 constexpr int drawn_rays = 14;
 constexpr const char* channel_names[] = {"r", "g", "b"};
-constexpr const char* colour_names[] = {"red", "green", "blue"};
 
 /// A lens at a channel's wavelength, with depths from green's H'.
 struct Coloured {
@@ -56,7 +55,7 @@ Plot colour_diagram(const LensField& field, const std::array<Bundle, 3>& light, 
               {},
               true};
     for (std::size_t c = 0; c < 3; ++c) {
-        Series spot{colour_names[c], {}, {}, true, c};
+        Series spot{colour_of_channel[c], {}, {}, true, c};
         for (const LensRay& ray : light[c].rays) {
             spot.x.push_back(ray.x + ray.mx * depth);
             spot.y.push_back(ray.y + ray.my * depth);

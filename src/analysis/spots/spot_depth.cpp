@@ -5,6 +5,7 @@
 #include "analysis/core/estimate.h"
 #include "analysis/core/figure_json.h"
 #include "analysis/spots/lens_spots.h"
+#include "base/bisection.h"
 #include "base/constants.h"
 #include "checks/depth_words.h"
 #include "geometry/resolve.h"
@@ -21,16 +22,7 @@ namespace {
 constexpr double most_per_mm = 1e6;  // a nanometre in front of the lens
 constexpr int depth_fan_rays = 1001;
 constexpr double farthest_mm = 1e7;  // end of the search by the lens
-
-/// Returns the point at which a predicate changes, once, from false at `out` to true at `in`, on the true side.
-template <class Predicate>
-double change(double out, double in, Predicate holds) {
-    for (int halved = 0; halved < 120; ++halved) {
-        const double middle = 0.5 * (out + in);
-        (holds(middle) ? in : out) = middle;
-    }
-    return in;
-}
+constexpr int depth_halvings = 120;
 
 /// Returns every third ray from `first` on, and both rims.
 std::vector<FanRay> thinned(const std::vector<FanRay>& fan, std::size_t first) {
@@ -212,10 +204,10 @@ SharpDepths where_sharp(const std::vector<FanRay>& fan, double pixel_slope, doub
     const auto width = [&](double per_mm) { return std::hypot(width_at(over_depth, per_mm).mm, airy_slope); };
     const auto rises = [&](double per_mm) { return width_at(over_depth, per_mm).per_mm > 0; };
     const auto sharp = [&](double per_mm) { return width(per_mm) <= pixel_slope; };
-    const double best = rises(-most_per_mm) ? -most_per_mm : change(-most_per_mm, most_per_mm, rises);
+    const double best = rises(-most_per_mm) ? -most_per_mm : bisected(most_per_mm, -most_per_mm, depth_halvings, rises).in;
     if (!sharp(best)) return {nan, nan, best, width(best)};
-    return {sharp(most_per_mm) ? most_per_mm : change(most_per_mm, best, sharp),
-            sharp(-most_per_mm) ? -most_per_mm : change(-most_per_mm, best, sharp), best, width(best)};
+    return {sharp(most_per_mm) ? most_per_mm : bisected(best, most_per_mm, depth_halvings, sharp).in,
+            sharp(-most_per_mm) ? -most_per_mm : bisected(best, -most_per_mm, depth_halvings, sharp).in, best, width(best)};
 }
 
 std::array<double, 2> where_narrow(const std::vector<FanRay>& fan, double width_mm) {
@@ -227,7 +219,7 @@ std::array<double, 2> where_narrow(const std::vector<FanRay>& fan, double width_
     for (const int side : {-1, 1}) {
         double in = 0, out = side * 1e-3;
         while (narrow(out) && std::abs(out) < farthest_mm) in = out, out *= 2;
-        ends[side < 0 ? 0 : 1] = narrow(out) ? side * infinity : change(out, in, narrow);
+        ends[side < 0 ? 0 : 1] = narrow(out) ? side * infinity : bisected(in, out, depth_halvings, narrow).in;
     }
     return ends;
 }

@@ -2,6 +2,7 @@
 
 #include "analysis/zone/zone_search.h"
 
+#include "base/bisection.h"
 #include "geometry/screen.h"
 
 namespace lfdsim {
@@ -38,13 +39,9 @@ Limit limit(const std::vector<double>& places, const std::vector<double>& wrong,
         while (k != middle && !good(at(k))) k -= step;
         int next = k + step;
         while (next != last && good(at(next))) next += step;
-        double inside = at(next - step), outside = at(next);
-        for (int n = 0; n < halvings; ++n) {
-            const double half_way = 0.5 * (inside + outside);
-            (good(half_way) ? inside : outside) = half_way;
-        }
-        if (errors == 0) precision = std::abs(outside - inside);
-        return errors > 0 ? inside : errors < 0 ? outside : 0.5 * (inside + outside);
+        const Bisected end = bisected(at(next - step), at(next), halvings, good);
+        if (errors == 0) precision = std::abs(end.out - end.in);
+        return errors > 0 ? end.in : errors < 0 ? end.out : end.middle();
     };
     const double found = ends(0, 12), early = ends(1, 6), late = ends(-1, 6);
     return {found, precision + std::max(std::abs(found - early), std::abs(found - late)), {}};

@@ -2,6 +2,7 @@
 #include "analysis/pictures/views.h"
 #include "base/printable.h"
 #include "base/seconds.h"
+#include "base/text.h"
 #include "cli/options/display_options.h"
 #include "cli/options/panel_source.h"
 #include "cli/options/variants.h"
@@ -61,15 +62,15 @@ struct AnalyzeArguments {
 };
 
 /// Returns the values of an option "FROM,TO,STEP": FROM + k STEP up to TO, which is included although FROM + k STEP is rounded;
-/// none if it is not given. Throws InputError unless they rise, lie within low .. high, and are at most 10001.
-std::vector<double> steps(const Option& option, double low, double high, const char* example) {
+/// none if it is not given. Throws InputError unless they rise, lie within -most .. most, and are at most AnalysisLimits::values.
+std::vector<double> steps(const Option& option, double most, const char* example) {
     if (option.empty()) return {};
     const std::vector<double> v = option.numbers(example);
-    if (!(v[0] < v[1] && v[2] > 0 && (v[1] - v[0]) / v[2] <= 10000 && v[0] >= low && v[1] <= high))
+    if (!(v[0] < v[1] && v[2] > 0 && (v[1] - v[0]) / v[2] <= AnalysisLimits::values - 1 && v[0] >= -most && v[1] <= most))
         throw InputError(
             option.name(),
-            fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0, for at most 10001 values",
-                        option.text(), low, high));
+            fmt::format("is {}; give FROM,TO,STEP with {} <= FROM < TO <= {} and a STEP above 0, for at most {} values",
+                        option.text(), -most, most, AnalysisLimits::values));
     std::vector<double> all;
     for (int k = 0; v[0] + k * v[2] <= v[1] + 1e-9 * v[2]; ++k) all.push_back(v[0] + k * v[2]);
     return all;
@@ -92,11 +93,9 @@ std::vector<const Measure*> chosen(const std::string& names) {
         for (const Measure& m : measures()) result.push_back(&m);
         return result;
     }
-    for (std::size_t start = 0; start <= names.size();) {
-        const std::size_t end = std::min(names.find(',', start), names.size());
-        const Measure& m = measure_named(names.substr(start, end - start));
+    for (const std::string_view name : split(names, ',')) {
+        const Measure& m = measure_named(name);
         if (std::find(result.begin(), result.end(), &m) == result.end()) result.push_back(&m);
-        start = end + 1;
     }
     return result;
 }
@@ -221,12 +220,12 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
     faults.of([&] { args.work.check(); });
     AnalysisOptions& options = request.options;
     faults.of([&] { options.device = args.device.read(); });
-    faults.of([&] { options.angles_deg = steps(args.angles, -80, 80, "-30,30,1"); });
-    faults.of([&] { options.depths_mm = steps(args.depths, -1e6, 1e6, "10,300,10"); });
+    faults.of([&] { options.angles_deg = steps(args.angles, AnalysisLimits::angle_deg, "-30,30,1"); });
+    faults.of([&] { options.depths_mm = steps(args.depths, AnalysisLimits::depth_mm, "10,300,10"); });
     faults.of([&] {
-        read_positive(args.viewing_distance, 1e6, options.viewing_distance_mm);
-        read_positive(args.eye_distance, 1000, options.eye_distance_mm);
-        read_positive(args.wavelength, 1e5, options.wavelength_nm);
+        read_positive(args.viewing_distance, AnalysisLimits::viewing_distance_mm, options.viewing_distance_mm);
+        read_positive(args.eye_distance, AnalysisLimits::eye_distance_mm, options.eye_distance_mm);
+        read_positive(args.wavelength, AnalysisLimits::wavelength_nm, options.wavelength_nm);
     });
     if (args.output.empty()) faults.of([] { throw InputError("--output", "is required: give a folder for the results"); });
     faults.report();

@@ -1,5 +1,6 @@
 #include "image/compare/compare.h"
 
+#include "base/constants.h"
 #include "cli/commands/compare_photo.h"
 #include "cli/options/made_for.h"
 #include "cli/output/output.h"
@@ -54,21 +55,17 @@ void run(const CompareArguments& args) {
     if (!args.crop.empty()) region = rectangle(args.crop.name(), args.crop.text(), a.width, a.height);
     warn_if_other_camera(path_a, path_b);
     const Comparison c = compare(a, b, region);
-    if (args.json)
-        return print_json(Json{{"ssim", c.ssim},
-                               {"psnr_db", c.psnr_db},
-                               {"rmse", c.rmse},
-                               {"max_difference", c.max_difference},
-                               {"max_column", c.max_column},
-                               {"max_row", c.max_row},
-                               {"max_channel", c.max_channel}});
-    constexpr const char* channels[] = {"red", "green", "blue"};
+    if (args.json) {
+        Json all;
+        visit_figures(c, [&](const char* name, auto value) { all[name] = value; });
+        return print_json(all);
+    }
     print(
         fmt::format("SSIM                {:.6f}\n"
                     "PSNR                {:.3f} dB (linear light)\n"
                     "RMSE                {:.6g} (linear light)\n"
                     "greatest difference {:.6g} (linear light) at column {}, row {}, {}\n",
-                    c.ssim, c.psnr_db, c.rmse, c.max_difference, c.max_column, c.max_row, channels[c.max_channel]));
+                    c.ssim, c.psnr_db, c.rmse, c.max_difference, c.max_column, c.max_row, colour_of_channel[c.max_channel]));
 }
 
 }  // namespace

@@ -54,12 +54,6 @@ Corners corners_from_display(const std::string& path, const Metadata& about, con
     return *corners.at;
 }
 
-Json pairs(const Corners& corners) {
-    Json all = Json::array();
-    for (const Point& p : corners) all.push_back(Json::array({p[0], p[1]}));
-    return all;
-}
-
 }  // namespace
 
 void PhotoOptions::run(const std::string& view_path, const std::string& photo_path, const Option& encoding, const Option& crop,
@@ -104,7 +98,8 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     faults.report();
     require_memory(view_path, fmt::format("mapping a photograph onto {} x {} pixels", view.width, view.height),
                    overlay_bytes(view.width, view.height) + picture_bytes(photo.image.width, photo.image.height));
-    const auto [found, screen, m] = lay_over(view, view_corners, std::move(photo), {fit_corners_, fit_blur_, part});
+    const Overlay overlay = lay_over(view, view_corners, std::move(photo), {fit_corners_, fit_blur_, part});
+    const auto& [found, screen, m] = overlay;
 
     for (const auto& [output, draw] : {std::pair(overlay_, &overlay_picture), {difference_, &difference_picture}}) {
         if (output.empty()) continue;
@@ -113,15 +108,10 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     }
     const std::int64_t pixels = screen.pixels();
     if (json) {
-        Json all{{"ssim", m.ssim},
-                 {"rmse", m.rmse},
-                 {"psnr_db", m.psnr_db},
-                 {"gains", m.gains},
-                 {"blur_px", fit_blur_ ? Json(m.blur_px) : Json()},
-                 {"pixels", pixels},
-                 {"unsaturated_share", m.used},
-                 {"corners", pairs(found)},
-                 {"view_corners", pairs(view_corners)}};
+        Json all;
+        visit_figures(overlay, [&](const char* name, const auto& value) { all[name] = value; });
+        if (!fit_blur_) all["blur_px"] = nullptr;
+        all["view_corners"] = view_corners;
         return print_json(all);
     }
     std::string text = fmt::format(

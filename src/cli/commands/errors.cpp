@@ -1,11 +1,11 @@
 #include "base/counted.h"
+#include "base/output_file.h"
 #include "cli/options/display_options.h"
 #include "cli/output/output.h"
 #include "cli/program/commands.h"
 #include "cli/program/interrupt.h"
 #include "files/lenses/lens_table.h"
 #include "geometry/geometry.h"
-#include "image/formats/file.h"
 #include "report/folder/description.h"
 
 #include <fmt/format.h>
@@ -24,11 +24,11 @@ struct ErrorsArguments {
 void run(const ErrorsArguments& args) {
     const Display display = args.display.read();
     const std::string& output = args.output.text();
-    if (output.empty()) throw InputError("--output", "the name is empty; give the file to write");
+    require_name(output, "--output", "the file to write");
     if (std::filesystem::path(output).extension() != ".csv")
         throw InputError("--output", fmt::format("{}: a table's name ends in .csv", output));
     guard_output(output);
-    detail::check_replaceable(output);
+    check_replaceable(output);
     const Geometry geometry = resolve(display);
     write_text(output, write_lens_table(display));
     const auto lenses = std::int64_t(geometry.lattice.count[0] * geometry.lattice.count[1]);

@@ -1,3 +1,4 @@
+#include "base/output_file.h"
 #include "base/printable.h"
 #include "cli/options/display_options.h"
 #include "cli/options/shown_panel.h"
@@ -12,7 +13,6 @@
 #include "files/description/display_file.h"
 #include "files/description/shell.h"
 #include "files/lenses/lens_table.h"
-#include "image/formats/file.h"
 #include "interchange/peers/fine_panel.h"
 #include "interchange/peers/peers.h"
 #include "report/folder/folder_lock.h"
@@ -69,11 +69,6 @@ PeerOptions options_of(const ExportArguments& args) {
         throw InputError("--normals", "are those of triangles; give --triangles N, too");
     options.normals = args.normals.word() == "flat" ? MeshNormals::flat : MeshNormals::smooth;
     return options;
-}
-
-void check_folder(const std::string& folder) {
-    if (folder.empty()) throw InputError("--output", "the name is empty; give a folder for the scene");
-    detail::check_folder(folder);
 }
 
 constexpr const char* description_file = "display.toml";
@@ -136,7 +131,10 @@ void run(const ExportArguments& args) {
     faults.of([&] { options = options_of(args); });
     faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
-    faults.of([&] { check_folder(args.folder.text()); });
+    faults.of([&] {
+        require_name(args.folder.text(), "--output", "a folder for the scene");
+        check_folder(args.folder.text());
+    });
     faults.of([&] { check_effects(args.command); });
     faults.report();
 

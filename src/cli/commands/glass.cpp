@@ -1,12 +1,13 @@
 #include "analysis/core/figure_json.h"
+#include "base/constants.h"
 #include "base/counted.h"
+#include "base/output_file.h"
 #include "cli/output/output.h"
 #include "cli/program/commands.h"
 #include "cli/program/input_files.h"
 #include "cli/program/interrupt.h"
 #include "display/display.h"
 #include "files/lenses/glasses.h"
-#include "image/formats/file.h"
 #include "report/plots/svg.h"
 
 #include <fmt/format.h>
@@ -37,8 +38,6 @@ Sourced sourced(const ShippedGlass& s) {
                                          : fmt::format("{}, its successor of the same glass code: {}", s.successor, s.source)};
 }
 
-constexpr std::string_view channels[] = {"red", "green", "blue"};
-
 /// The glass with its indices in air; null at wavelengths that its coefficients do not cover.
 Json to_json(const Sourced& s) {
     const Glass& glass = s.glass;
@@ -48,7 +47,7 @@ Json to_json(const Sourced& s) {
     for (const auto& [name, nm] : spectral_lines()) lines[std::string(name)] = {{"wavelength_nm", nm}, {"index", index(nm)}};
     for (std::size_t k = 0; k < 3; ++k) {
         const double nm = Panel().wavelengths_nm[k];
-        panel[std::string(channels[k])] = {{"wavelength_nm", nm}, {"index", index(nm)}};
+        panel[colour_of_channel[k]] = {{"wavelength_nm", nm}, {"index", index(nm)}};
     }
     return {{"name", glass.name},
             {"source", s.source},
@@ -117,8 +116,7 @@ std::string plot(const Glass& glass) {
     }
     Plot plot{"glass", "Refractive index of " + glass.name, "wavelength, nm", "n", {std::move(curve)}};
     for (std::size_t k = 0; k < 3; ++k)
-        if (const double nm = Panel().wavelengths_nm[k]; nm >= from && nm <= to)
-            plot.marks.push_back({std::string(channels[k]), nm});
+        if (const double nm = Panel().wavelengths_nm[k]; nm >= from && nm <= to) plot.marks.push_back({colour_of_channel[k], nm});
     return svg(plot);
 }
 
@@ -128,7 +126,7 @@ void check_plot(const GlassArguments& args) {
     const std::filesystem::path path = args.plot.text();
     if (path.extension() != ".svg") throw InputError("--plot", fmt::format("{}: a plot's name ends in .svg", args.plot.text()));
     guard_output(path);
-    detail::check_replaceable(path);
+    check_replaceable(path);
 }
 
 /// Prints the warnings of the named glass; without a name those of all glasses, at most `most_listed` of them.

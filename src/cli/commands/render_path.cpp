@@ -55,18 +55,17 @@ void PathOptions::check(const OutputOptions& output) const {
         faults.of([&] { output.check_bits("frame." + kind_.text()); });
         faults.of([&] {
             std::error_code error;
-            if (output.path().empty()) throw InputError("--output", "the name is empty; give a folder for the frames");
+            require_name(output.path(), "--output", "a folder for the frames");
             if (fs::exists(output.path(), error) && !fs::is_directory(output.path(), error))
                 throw InputError(output.path(), "is not a folder; give one for the frames of --path");
         });
-        if (resume_ && kind_.text() == "npy")
-            faults.of([] { throw InputError("--resume", "a .npy does not record how it was made; use png or exr"); });
+        faults.of([&] { check_resume(resume_, kind_.text()); });
     }
     faults.report();
 }
 
 CameraPath PathOptions::read() const {
-    if (path_.empty()) throw InputError("--path", "the name is empty; give a camera path");
+    require_name(path_.text(), "--path", "a camera path");
     remember_input("the camera path", path_.text());
     return read_path(path_.text());
 }

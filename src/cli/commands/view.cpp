@@ -1,3 +1,4 @@
+#include "base/on_threads.h"
 #include "cli/options/display_options.h"
 #include "cli/options/panel_source.h"
 #include "cli/options/work_options.h"
@@ -76,7 +77,7 @@ void run(const ViewArguments& args) {
     faults.of(args.port, [&] { options.port = int(args.port.whole_number(1, 65535)); });
     faults.of([&] { options.token = token_of(args); });
     faults.of(args.visitors, [&] { options.most_visitors = int(args.visitors.whole_number(1, 64)); });
-    faults.of(args.threads, [&] { threads = int(args.threads.whole_number(1, 1024)); });
+    faults.of(args.threads, [&] { threads = int(args.threads.whole_number(1, most_threads)); });
     faults.of([&] { start.device = args.device.read(); });
     faults.of([&] { check_effects(args.command); });
     faults.report();

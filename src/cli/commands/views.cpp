@@ -1,3 +1,4 @@
+#include "base/output_file.h"
 #include "cli/options/display_options.h"
 #include "cli/options/grid_options.h"
 #include "cli/options/panel_source.h"
@@ -15,7 +16,6 @@
 #include "engine/devices/memory.h"
 #include "engine/views/grid_view.h"
 #include "files/description/display_file.h"
-#include "image/formats/file.h"
 #include "report/folder/folder_lock.h"
 
 #include <fmt/format.h>
@@ -112,10 +112,9 @@ Target target_of(const ViewsArguments& args, const Display& display) {
         });
         faults.of([&] { args.output.check_bits("view." + args.kind.text()); });
         faults.of([&] {
-            if (path.empty()) throw InputError("--output", "the name is empty; give a folder for the views, or a quilt's name");
-            detail::check_folder(path);
-            if (args.resume && args.kind.text() == "npy")
-                throw InputError("--resume", "a .npy does not record how it was made; use png or exr");
+            require_name(path.string(), "--output", "a folder for the views, or a quilt's name");
+            check_folder(path);
+            check_resume(args.resume, args.kind.text());
         });
     }
     faults.report();

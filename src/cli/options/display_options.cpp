@@ -130,7 +130,7 @@ std::vector<std::string> DisplayOptions::overrides() const {
 }
 
 Display DisplayOptions::read(const std::string& path, const std::string& compared) const {
-    if (path.empty()) throw InputError("DISPLAY.toml", "the name is empty; give the description of a display");
+    require_name(path, "DISPLAY.toml", "the description of a display");
     remember_input("the description", path);
     Faults faults;
     auto [overrides, written] = all_overrides(faults);

@@ -38,7 +38,7 @@ PanelImageOption::Read PanelImageOption::read(const Display& display, Job& job) 
 
 void ModelOption::apply(Display& display) const {
     if (!given()) return;
-    if (path().empty()) throw InputError("--model", "the name is empty; give a mesh file or built-in:spheres");
+    require_name(path(), "--model", "a mesh file or built-in:spheres");
     remember_input("the model", path());
     display.content.model = path();
     display.content.objects.clear();

@@ -1,5 +1,6 @@
 #include "cli/options/work_options.h"
 
+#include "base/on_threads.h"
 #include "base/printable.h"
 #include "cli/program/arguments.h"
 #include "engine/devices/devices.h"
@@ -9,7 +10,7 @@
 
 namespace lfdsim::cli {
 
-int WorkOptions::threads() const { return threads_.empty() ? 0 : int(threads_.whole_number(1, 1024)); }
+int WorkOptions::threads() const { return threads_.empty() ? 0 : int(threads_.whole_number(1, most_threads)); }
 
 void WorkOptions::check() const {
     Faults faults;

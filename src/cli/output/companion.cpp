@@ -1,7 +1,8 @@
 #include "cli/output/companion.h"
 
+#include "base/input_error.h"
+#include "base/output_file.h"
 #include "cli/program/interrupt.h"
-#include "image/formats/file.h"
 
 #include <fstream>
 #include <iterator>
@@ -10,7 +11,7 @@ namespace lfdsim::cli {
 
 void check_companion(const std::filesystem::path& path, bool own, bool replace) {
     guard_output(path);
-    detail::check_replaceable(path);
+    check_replaceable(path);
     std::error_code none;
     if (!own && !replace && std::filesystem::exists(std::filesystem::symlink_status(path, none)))
         throw InputError(path.string(),

@@ -1,7 +1,7 @@
 #include "cli/output/mapping_export.h"
 
 #include "base/constants.h"
-#include "base/printable.h"
+#include "base/json_utf8.h"
 #include "cli/output/companion.h"
 #include "cli/output/output.h"
 #include "cli/program/input_files.h"
@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* colours[] = {"red", "green", "blue"};
 constexpr int values_per_node = 5;  // x, y, slope x, slope y, light
 
 /// The line along which most light of a panel point u travels, and the light relative to that of the point on the axis; NaN where
@@ -71,7 +70,7 @@ void write_exr(const fs::path& path, const std::vector<LensMapping>& maps, const
             slope[0] = from[2], slope[1] = from[3], slope[2] = from[4];
             place[0] = from[0], place[1] = from[1], place[2] = 0;
         }
-        const std::string colour = maps.size() > 1 ? colours[m] : "all";
+        const std::string colour = maps.size() > 1 ? colour_of_channel[m] : "all";
         if (m == maps.size() / 2) first = slopes;
         options.layers.push_back({colour + ".slope", std::move(slopes)});
         options.layers.push_back({colour + ".place", std::move(places)});
@@ -84,7 +83,7 @@ Json sidecar(const Display& d, const Geometry& g, const std::vector<LensMapping>
     const LensMapping& map = maps[0];
     Json wavelengths = Json::array(), names = Json::array();
     for (std::size_t m = 0; m < maps.size(); ++m) {
-        names.push_back(maps.size() > 1 ? colours[m] : "all");
+        names.push_back(maps.size() > 1 ? colour_of_channel[m] : "all");
         if (maps.size() > 1) wavelengths.push_back(d.panel.wavelengths_nm[m]);
     }
     const auto axis = [&](std::size_t k, const char* direction) {
@@ -148,7 +147,7 @@ Plot plot_of(const std::vector<LensMapping>& maps, const Geometry& g, bool strip
     };
     if (!strips) trace(maps[0], plot.series.emplace_back(Series{"nodal", {}, {}}), true);
     for (std::size_t m = 0; m < maps.size(); ++m)
-        trace(maps[m], plot.series.emplace_back(Series{maps.size() > 1 ? colours[m] : "traced", {}, {}}), false);
+        trace(maps[m], plot.series.emplace_back(Series{maps.size() > 1 ? colour_of_channel[m] : "traced", {}, {}}), false);
     return plot;
 }
 
@@ -189,11 +188,7 @@ void MappingOption::write(const Display& display, const Geometry& geometry, int 
         write_npy(path(), std::array<std::int64_t, 4>{std::int64_t(maps.size()), height, width, values_per_node}, values);
     else
         write_exr(path(), maps, values);
-    write_text(
-        beside(path(), ".json"),
-        printable_lines(
-            sidecar(display, geometry, maps, fs::path(path()).filename()).dump(2, ' ', false, Json::error_handler_t::replace)) +
-            "\n");
+    write_text(beside(path(), ".json"), json_file(sidecar(display, geometry, maps, fs::path(path()).filename())));
     write_text(beside(path(), ".svg"), svg(plot_of(maps, geometry, strips, display.name)));
 }
 

@@ -1,10 +1,10 @@
 #include "cli/output/new_description.h"
 
+#include "base/output_file.h"
 #include "cli/output/output.h"
 #include "cli/program/interrupt.h"
 #include "files/description/display_file.h"
 #include "files/description/shell.h"
-#include "image/formats/file.h"
 
 #include <fmt/format.h>
 #include <filesystem>
@@ -12,10 +12,10 @@
 namespace lfdsim::cli {
 
 void NewDescription::check() const {
-    if (path_.empty()) throw InputError("--output", "the name is empty; give the file to write");
+    require_name(path(), "--output", "the file to write");
     const std::filesystem::path file = path();
     guard_output(file);
-    detail::check_replaceable(file);
+    check_replaceable(file);
     if (file.extension() != ".toml") throw InputError("--output", fmt::format("{}: a description's name ends in .toml", path()));
     std::error_code error;
     if (!force_ && std::filesystem::exists(std::filesystem::symlink_status(file, error)))

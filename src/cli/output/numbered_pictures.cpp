@@ -1,6 +1,7 @@
 #include "cli/output/numbered_pictures.h"
 
 #include "base/counted.h"
+#include "base/json_utf8.h"
 #include "cli/output/output.h"
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ std::string NumberedPictures::shown_with(const std::vector<std::string>& files) 
     Json all = shown;
     for (const Json& one : stamps(files))
         if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
-    return all.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_utf8(all);
 }
 
 bool NumberedPictures::finished(std::int64_t n) const {
@@ -91,6 +92,10 @@ std::vector<std::int64_t> NumberedPictures::left() const {
     for (std::int64_t n = 0; n < count; ++n)
         if (!resume || !finished(n)) all.push_back(n);
     return all;
+}
+
+void check_resume(bool resume, const std::string& kind) {
+    if (resume && kind == "npy") throw InputError("--resume", "a .npy does not record how it was made; use png or exr");
 }
 
 }  // namespace lfdsim::cli

@@ -36,4 +36,7 @@ struct NumberedPictures {
     std::vector<std::int64_t> left() const;
 };
 
+/// Throws InputError if numbered pictures of a kind ("npy") that has no metadata are to be resumed.
+void check_resume(bool resume, const std::string& kind);
+
 }  // namespace lfdsim::cli

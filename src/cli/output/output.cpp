@@ -1,12 +1,13 @@
 #include "cli/output/output.h"
 
+#include "base/json_utf8.h"
+#include "base/output_file.h"
 #include "base/printable.h"
 #include "cli/program/arguments.h"
 #include "cli/program/input_files.h"
 #include "cli/program/interrupt.h"
 #include "files/description/display_file.h"
 #include "files/description/shell.h"
-#include "image/formats/file.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -46,22 +47,20 @@ void print(std::string_view words) {
     }
 }
 
-void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
+void print_json(const Json& json) { print(json_utf8(json, 2) + "\n"); }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {
     guard_output(path);
-    detail::OutputFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
+    write_file(path, text);
 }
 
 void check_input(const std::string& argument, const std::string& path) {
-    if (path.empty()) throw InputError(argument, "the name is empty; give the file to read");
+    require_name(path, argument, "the file to read");
     remember_input(argument, path);
 }
 
 void check_output(const std::string& path, const std::string& option) {
-    if (path.empty()) throw InputError(option, "the name is empty; give the file to write");
+    require_name(path, option, "the file to write");
     guard_output(path);
     check_writable(path);
 }

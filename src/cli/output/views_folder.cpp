@@ -1,12 +1,12 @@
 #include "cli/output/views_folder.h"
 
 #include "base/counted.h"
+#include "base/output_file.h"
 #include "cli/output/companion.h"
 #include "cli/output/output.h"
 #include "cli/program/input_files.h"
 #include "cli/program/interrupt.h"
 #include "files/views/views_source.h"
-#include "image/formats/file.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -47,7 +47,7 @@ ViewsFolder::ViewsFolder(fs::path folder, const std::string& kind, bool depth, c
 void ViewsFolder::check() const {
     const fs::path& folder = pictures_.folder;
     std::error_code none;
-    detail::remove_abandoned(folder, {});
+    remove_abandoned(folder, {});
     if (!fs::is_directory(folder, none)) return;
     std::error_code unreadable;
     if (fs::is_empty(folder, unreadable)) return;

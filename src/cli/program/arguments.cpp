@@ -1,6 +1,7 @@
 #include "cli/program/arguments.h"
 
 #include "base/printable.h"
+#include "base/text.h"
 #include "base/whole_text.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ std::string number_hint(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const std::string_view number = text.substr(0, std::size_t(end - text.data())), rest = text.substr(number.size());
     if (error != std::errc() || rest.empty()) return "give a finite number such as 12.5";
-    if (rest[0] == ',' && rest.size() > 1 && rest.find_first_not_of("0123456789", 1) == rest.npos)
+    if (rest[0] == ',' && is_digits(rest.substr(1)))
         return fmt::format("the decimal sign is a point; give {}.{}", number, rest.substr(1));
     const std::string_view unit = rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
     if (!unit.empty() && (std::isalpha(static_cast<unsigned char>(unit[0])) || unit[0] == '%' || (unit[0] & 0x80)))
@@ -42,16 +43,6 @@ std::optional<std::int64_t> whole(std::string_view text) {
     const std::optional<double> value = finite(text);  // 1e3; doubles are whole numbers exactly below 2^53
     if (!value || std::trunc(*value) != *value || std::abs(*value) > 0x1p53) return {};
     return std::int64_t(*value);
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    for (std::size_t start = 0;;) {
-        const std::size_t end = text.find(separator, start);
-        parts.push_back(text.substr(start, end - start));
-        if (end == text.npos) return parts;
-        start = end + 1;
-    }
 }
 
 }  // namespace

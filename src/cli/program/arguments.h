@@ -1,6 +1,6 @@
 // Option values, read strictly: the whole text must be the value, numbers finite. Floor 5.
 #pragma once
-#include "base/input_error.h"
+#include "base/problems.h"
 #include "cli/program/command.h"
 #include "image/image.h"
 
@@ -35,14 +35,14 @@ Rect rectangle(std::string_view option, std::string_view text, std::int64_t widt
 std::string word(std::string_view option, std::string_view text, const std::vector<std::string>& allowed);
 
 /// Runs the parts of reading a command line and collects the faults of each, so that all are reported at once.
-class Faults {
+class Faults : public Problems {
   public:
     template <class Part>
     void of(Part part) {
         try {
             part();
         } catch (const InputError& e) {
-            all_.insert(all_.end(), e.problems.begin(), e.problems.end());
+            for (const Problem& p : e.problems) add(p);
         }
     }
     /// Runs the part of an option that was given.
@@ -50,13 +50,6 @@ class Faults {
     void of(const Option& option, Part part) {
         if (!option.empty()) of(part);
     }
-    /// Throws InputError with all faults, if there are any.
-    void report() const {
-        if (!all_.empty()) throw InputError(all_);
-    }
-
-  private:
-    std::vector<Problem> all_;
 };
 
 }  // namespace lfdsim::cli

@@ -1,8 +1,8 @@
 #include "cli/program/interrupt.h"
 
+#include "base/output_file.h"
 #include "cli/program/input_files.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #include <atomic>
 #include <csignal>
@@ -45,7 +45,7 @@ void guard_output(const std::filesystem::path& path) {
     refuse_input(path);
     static std::string text;
     partial_file = nullptr;
-    text = fmt::format("{}.partial-{}", path.string(), getpid());  // the name that OutputFile uses
+    text = partial_name(path).string();
     partial_file = text.c_str();
 }
 

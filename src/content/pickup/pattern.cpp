@@ -1,6 +1,7 @@
 // Test patterns. docs/model.md, "Test patterns".
 
 #include "base/constants.h"
+#include "base/problems.h"
 #include "content/content.h"
 #include "content/pickup/pickup.h"
 #include "geometry/lens_misalignment.h"
@@ -28,16 +29,16 @@ Image fill(const Display& display, const Colour& colour) {
 void grey(bool white, float* rgb) { rgb[0] = rgb[1] = rgb[2] = white ? 1.f : 0.f; }
 
 void check(const PatternOptions& o) {
-    std::vector<Problem> problems;
+    Problems problems;
     const auto need = [&](bool good, const char* what, double given, const char* allowed) {
-        if (!good) problems.push_back({what, fmt::format("{} given; allowed is {}", given, allowed)});
+        if (!good) problems.add(what, "{} given; allowed is {}", given, allowed);
     };
     need(o.cell_pixels >= 1, "cell_pixels", o.cell_pixels, "1 or more");
     need(std::abs(o.view_x) <= 0.5, "view_x", o.view_x, "-0.5 to 0.5");
     need(std::abs(o.view_y) <= 0.5, "view_y", o.view_y, "-0.5 to 0.5");
     need(std::abs(o.edge_deg) <= 90, "edge_deg", o.edge_deg, "-90 to 90");
     need(std::isfinite(o.depth_mm), "depth_mm", o.depth_mm, "any finite length");
-    if (!problems.empty()) throw InputError(problems);
+    problems.report();
 }
 
 // Returns the pixels nearest to one position of each elemental image. They reach 3/4 of a pixel: one pixel if the position is a

@@ -51,12 +51,12 @@ class ShownPoints {
     }
 
   private:
-    static std::vector<LitRect> whole_pixel() { return {{{-0.5, -0.5}, {0.5, 0.5}}}; }
-    static std::optional<Point> point_at(const std::vector<LitRect>& rects, const Point& place) {
+    static std::vector<SubpixelRect> whole_pixel() { return {{{-0.5, -0.5}, {0.5, 0.5}}}; }
+    static std::optional<Point> point_at(const std::vector<SubpixelRect>& rects, const Point& place) {
         double area = 0;
-        for (const LitRect& r : rects) area += r.area();
+        for (const SubpixelRect& r : rects) area += r.area();
         double left = place[0] * area;
-        for (const LitRect& r : rects) {
+        for (const SubpixelRect& r : rects) {
             if (left < r.area())
                 return Point{r.from[0] + left / r.area() * (r.to[0] - r.from[0]), r.from[1] + place[1] * (r.to[1] - r.from[1])};
             left -= r.area();

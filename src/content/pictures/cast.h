@@ -33,7 +33,8 @@ Picture cast(const Light& light_of, const RayRequest& frame, int threads, const 
     if (crop.x0 < 0 || crop.y0 < 0 || crop.x1 > width || crop.y1 > height || crop.x0 >= crop.x1 || crop.y0 >= crop.y1)
         throw InputError("crop", "it must lie inside the frame, which has " + std::to_string(width) + " x " +
                                      std::to_string(height) + " pixels");
-    if (threads < 0 || threads > 4096) throw InputError("threads", std::to_string(threads) + " given; allowed are 0 (all) to 4096");
+    if (threads < 0 || threads > most_threads)
+        throw InputError("threads", std::to_string(threads) + " given; allowed are 0 (all) to " + std::to_string(most_threads));
     constexpr int tile = 64, often = 1 << 10;  // packets between questions whether the job was cancelled: milliseconds
     const int columns = (crop.x1 + tile - 1) / tile - crop.x0 / tile, rows = (crop.y1 + tile - 1) / tile - crop.y0 / tile;
     const auto start = std::chrono::steady_clock::now();

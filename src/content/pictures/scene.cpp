@@ -48,7 +48,7 @@ Placing of_objects(const PointBounds& box, const std::optional<double>& height_m
 }
 
 // Rotates, scales and moves the model's vertices, and rotates the light into the model's axes instead of all normals.
-void pose(ContentScene::Impl& scene, const Display& display, const Geometry& geometry) {
+void place_model(ContentScene::Impl& scene, const Display& display, const Geometry& geometry) {
     const Model& model = *scene.model;
     const Content& content = display.content;
     const Turn turn(0, content.tilt_deg, content.yaw_deg);
@@ -140,7 +140,7 @@ std::shared_ptr<ContentScene::Impl> posed(const ContentParts& parts, const Displ
     const auto made = std::make_shared<ContentScene::Impl>();
     made->joined = !display.content.objects.empty();
     made->model = made->joined ? joined(parts, display.content.objects) : parts.at(0);
-    pose(*made, display, geometry);
+    place_model(*made, display, geometry);
     return made;
 }
 

@@ -3,6 +3,7 @@
 #include "content/reader/import.h"
 
 #include "base/counted.h"
+#include "base/text.h"
 #include "content/reader/axes.h"
 #include "content/reader/colours_3mf.h"
 #include "content/reader/fit_to_floats.h"
@@ -285,12 +286,6 @@ void choose_loaders(Assimp::Importer& importer, const std::filesystem::path& fil
     importer.RegisterLoader(new PlyLoader(not_shown));
 }
 
-std::string lower_ending(const std::string& file) {
-    std::string ending = std::filesystem::path(file).extension().string();
-    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return ending;
-}
-
 }  // namespace
 
 Model import(const std::filesystem::path& file, const std::string& up) {
@@ -302,7 +297,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
     std::map<std::string, Tiling> tilings;
     int exponent = 0;  // of the power of two by which positions are multiplied as long as Assimp has them
     folder->edited = [&](const std::string& name) -> std::optional<std::string> {
-        const std::string ending = lower_ending(name);
+        const std::string ending = lower_case(std::filesystem::path(name).extension().string());
         const bool has_positions = ending == ".obj" || ending == ".off" || ending == ".stl";
         const bool has_face_colours = ending == ".off" || ending == ".x3d";
         bool changed = has_byte_order_mark(name);

@@ -12,6 +12,9 @@ class Job;
 struct PanelRay {
     std::uint32_t place;  // panel pixel, row x columns + column; with subpixels four times that plus the one lit channel (3: all)
     float share;          // of the pixel's light that the ray carries; 0: the ray ends on none
+
+    std::uint32_t pixel(bool subpixels) const { return subpixels ? place >> 2 : place; }
+    bool lights(std::uint32_t channel, bool subpixels) const { return !subpixels || (place & 3) == 3 || (place & 3) == channel; }
 };
 
 /// A tile of the picture and how it is rendered: pixels x0 .. x1-1, y0 .. y1-1 of the whole frame. The light of pixel (x, y) goes

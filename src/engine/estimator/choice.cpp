@@ -2,6 +2,7 @@
 
 #include "engine/estimator/limits.h"
 #include "engine/scene/traced_display.h"
+#include "optics/sampler.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +13,6 @@ namespace lfdsim {
 namespace {
 
 using Limits = FilteredLimits;
-
-/// Returns a number that looks random (a bijective hash with good avalanche).
-std::uint32_t scrambled(std::uint32_t a) {
-    a = (a ^ a >> 16) * 0x7feb352du;
-    a = (a ^ a >> 15) * 0x846ca68bu;
-    return a ^ a >> 16;
-}
 
 /// Returns squares of 4 x 4 pixels, one at a random place in each cell of a grid of an_axis x an_axis cells over the region: lenses
 /// that appear at an even pitch would otherwise be met at the same part each time. They depend on the region alone.
@@ -32,7 +26,7 @@ std::vector<Rect> places_in(const Rect& region, int an_axis) {
     for (int j = 0; j < an_axis; ++j)
         for (int i = 0; i < an_axis; ++i) {
             const std::uint32_t number =
-                scrambled((std::uint32_t(region.y0) * 8191 + std::uint32_t(region.x0)) * 1024 + std::uint32_t(j * an_axis + i));
+                optics::mix((std::uint32_t(region.y0) * 8191 + std::uint32_t(region.x0)) * 1024 + std::uint32_t(j * an_axis + i));
             const int x = start(region.x0, region.x1, i, number & 0xffff), y = start(region.y0, region.y1, j, number >> 16);
             places.push_back({x, y, std::min(x + Limits::place_side, region.x1), std::min(y + Limits::place_side, region.y1)});
         }
@@ -64,7 +58,6 @@ std::vector<float> light_at(Kernel kernel, Tile tile, const std::vector<Rect>& p
 
 /// Returns the light of places by points if the panel were white: the shares of the rays that meet it.
 std::vector<float> white_at(Kernel kernel, Tile tile, const std::vector<Rect>& places, bool subpixels) {
-    constexpr std::uint32_t all = 3;
     std::vector<PanelRay> rays(std::size_t(Limits::place_side * Limits::place_side) * tile.samples);
     std::vector<float> light;
     for (const Rect& at : places) {
@@ -75,8 +68,7 @@ std::vector<float> white_at(Kernel kernel, Tile tile, const std::vector<Rect>& p
             float of[3] = {};
             for (std::uint32_t k = 0; k < tile.samples; ++k) {
                 const PanelRay& ray = rays[pixel * tile.samples + k];
-                const std::uint32_t shown = subpixels ? ray.place & 3 : all;
-                for (std::uint32_t c = 0; c < 3; ++c) of[c] += shown == all || shown == c ? ray.share : 0;
+                for (std::uint32_t c = 0; c < 3; ++c) of[c] += ray.lights(c, subpixels) ? ray.share : 0;
             }
             for (const float sum : of) light.push_back(sum / float(tile.samples));
         }

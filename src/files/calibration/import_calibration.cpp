@@ -72,7 +72,7 @@ class CalibrationImport {
         find_gap();
         make_lenses();
         place_array();
-        make_ray_origin();
+        place_camera_and_content();
         made.notes.insert(made.notes.end(), c.notes.begin(), c.notes.end());
         judge();
         made.display = std::move(d);
@@ -225,8 +225,8 @@ class CalibrationImport {
         if (count < 1 + fewest_lenses) note("Only {:.0f} lenses cover the panel.", count - 1);
     }
 
-    // Camera and content: an eye at the distance D' that sees the whole panel, and spheres in the plane of the vertices.
-    void make_ray_origin() {
+    // Places the camera, an eye at the distance D' that sees the whole panel, and the content, spheres in the plane of the vertices.
+    void place_camera_and_content() {
         const double W = double(c.pixels[0]), H = double(c.pixels[1]), longest = std::max(W, H);
         d.camera.position_mm = {0, 0, distance_mm};
         d.camera.frame_width_mm = to_nanometre(1.03 * W * d.panel.pixel_pitch_mm);

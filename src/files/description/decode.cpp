@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/text.h"
+
 namespace lfdsim {
 namespace {
 
@@ -17,30 +19,6 @@ void append(std::string& text, std::uint32_t c) {
     } else {
         text += {char(0xf0 | c >> 18), char(0x80 | (c >> 12 & 0x3f)), char(0x80 | (c >> 6 & 0x3f)), char(0x80 | (c & 0x3f))};
     }
-}
-
-/// Returns the length of the UTF-8 sequence that begins with this byte; 0 if none can.
-std::size_t utf8_length(unsigned char first) {
-    if (first < 0x80) return 1;
-    if (first >= 0xc2 && first < 0xe0) return 2;
-    if (first >= 0xe0 && first < 0xf0) return 3;
-    return first >= 0xf0 && first < 0xf5 ? 4 : 0;
-}
-
-/// Whether all bytes are well-formed UTF-8: overlong forms, surrogates (U+D800 to U+DFFF) and codes above U+10FFFF are not.
-bool is_utf8(std::string_view bytes) {
-    const auto at = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-    for (std::size_t i = 0; i < bytes.size();) {
-        const std::size_t length = utf8_length(at(i));
-        if (length == 0 || bytes.size() - i < length) return false;
-        for (std::size_t k = 1; k < length; ++k)
-            if ((at(i + k) & 0xc0) != 0x80) return false;
-        if ((at(i) == 0xe0 && at(i + 1) < 0xa0) || (at(i) == 0xed && at(i + 1) >= 0xa0) || (at(i) == 0xf0 && at(i + 1) < 0x90) ||
-            (at(i) == 0xf4 && at(i + 1) >= 0x90))
-            return false;
-        i += length;
-    }
-    return true;
 }
 
 /// Converts UTF-16 without its mark; an odd last byte is left out.
@@ -75,7 +53,7 @@ std::string to_utf8(std::string_view bytes) {
     return text;
 }
 
-std::string_view next_line(std::string_view& text) {
+std::string_view next_foreign_line(std::string_view& text) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size()));

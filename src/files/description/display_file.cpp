@@ -84,7 +84,7 @@ class DisplayReader {
     // Adds the names of a table's keys, including those of all kinds.
     template <class T>
     static void add_known(std::vector<std::string_view>& known) {
-        for (const Key<T>& key : table_of<T>().keys) {
+        for (const Key<T>& key : TableOf<T>::table.keys) {
             known.push_back(key.name);
             if constexpr (has_parts<T>)
                 std::visit(
@@ -106,7 +106,7 @@ class DisplayReader {
     // for each struct.
     template <class T>
     void read_keys(const toml::table& from, const std::string& prefix, T& values) {
-        for (const Key<T>& key : table_of<T>().keys) {
+        for (const Key<T>& key : TableOf<T>::table.keys) {
             const auto value = std::visit(
                 [&]<class Field>(Field T::*member) -> std::optional<ValueRef> {
                     if constexpr (part_kind<Field> == PartKind::value) return &(values.*member);
@@ -184,7 +184,7 @@ class DisplayReader {
         std::vector<std::string_view> known;
         std::visit([&]<class One>(const One&) { add_known<One>(known); }, field);
         for_kinds(Kind(), [&]<class Other>(const Other&) {
-            for (const Key<Other>& key : table_of<Other>().keys) {
+            for (const Key<Other>& key : TableOf<Other>::table.keys) {
                 if (!from.contains(key.name) || std::find(known.begin(), known.end(), key.name) != known.end()) continue;
                 known.push_back(key.name);
                 const bool list =
@@ -194,7 +194,7 @@ class DisplayReader {
                 add_superfluous(
                     source.place(path), path,
                     fmt::format("has no meaning for a {} of type \"{}\"; {}leave it out", prefix.substr(0, prefix.size() - 1),
-                                word(field), list ? fmt::format("take type = \"{}\", or ", table_of<Other>().name) : ""));
+                                word(field), list ? fmt::format("take type = \"{}\", or ", TableOf<Other>::table.name) : ""));
             }
         });
     }

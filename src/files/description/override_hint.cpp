@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/text.h"
 #include "display/keys.h"
 
 namespace lfdsim {
@@ -35,12 +36,6 @@ constexpr ValueForm form<Glass> = ValueForm::other;
 ValueForm form_of(std::string_view path) {
     const FormatTable::Value* found = key_at(path);
     return found ? std::visit([]<class Value>(const Value*) { return form<Value>; }, found->fresh) : ValueForm::other;
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-    return text;
 }
 
 /// Returns, in TOML's form, the decimal with which a text begins as people write it (".6", "6.", "+007"); the rest of the text goes
@@ -103,20 +98,20 @@ bool half_written(std::string_view number) {
 /// Returns the hint for the value of a key that takes one number.
 std::string number_hint(std::string_view path, std::string_view value) {
     if (value.starts_with('"') || value.starts_with('\'')) {
-        const std::string_view inside = trimmed(value.substr(1));
+        const std::string_view inside = trimmed(value.substr(1), " ");
         std::string_view rest;
         if (const auto number = decimal(inside, rest); number && rest.empty())
             return "numbers are written without quotes: " + *number;
     }
     std::string_view rest;
     if (const auto number = decimal(value, rest)) {
-        const std::string_view unit = trimmed(rest);
+        const std::string_view unit = trimmed(rest, " ");
         if (unit.empty())
             return half_written(value) ? "numbers have digits on both sides of a point and no leading zeros; write " + *number : "";
         if ((unit[0] == 'e' || unit[0] == 'E') && unit.find_first_not_of("+-", 1) == unit.npos)
             return fmt::format("the exponent is missing; write a number such as {}e3", *number);
         const std::size_t comma = value.find(',');
-        if (unit[0] == ',' && unit.size() > 1 && unit.find_first_not_of("0123456789", 1) == unit.npos)
+        if (unit[0] == ',' && is_digits(unit.substr(1)))
             return fmt::format("the decimal sign is a point; write {}.{}", value.substr(0, comma), value.substr(comma + 1));
         if (std::isalpha(static_cast<unsigned char>(unit[0])) || unit[0] == '%' || static_cast<unsigned char>(unit[0]) >= 0x80)
             return with_unit(path, *number, unit);
@@ -144,7 +139,7 @@ std::string list_hint(std::string_view value) {
 }  // namespace
 
 std::string override_hint(std::string_view path, std::string_view value) {
-    value = trimmed(value);
+    value = trimmed(value, " ");
     if (value.empty()) return "the value is missing";
     switch (form_of(path)) {
         case ValueForm::number:

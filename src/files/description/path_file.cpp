@@ -10,6 +10,7 @@
 #include <span>
 
 #include "base/printable.h"
+#include "base/problems.h"
 #include "files/description/json_text.h"
 #include "files/description/nearest.h"
 #include "files/description/text_file.h"
@@ -20,7 +21,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double most_frames_per_second = 1000;
-constexpr std::size_t most_problems = 20;  // reported of one file: each of its poses may be wrong
 
 /// Reads values and collects their faults. What is refused is read as 0, so that all faults are found.
 class PathReader {
@@ -29,12 +29,9 @@ class PathReader {
 
     template <class... Values>
     void refuse(const std::string& place, fmt::format_string<Values...> what, Values&&... values) {
-        problems_.push_back({fmt::format("{}: {}", name_, place), fmt::format(what, std::forward<Values>(values)...)});
-        if (problems_.size() >= most_problems) report();
+        problems_.add(fmt::format("{}: {}", name_, place), what, std::forward<Values>(values)...);
     }
-    void report() const {
-        if (!problems_.empty()) throw InputError(problems_);
-    }
+    void report() const { problems_.report(); }
 
     /// Whether a value is an object with the first `required` of these keys; any key that is not among them is refused, too.
     bool object(const Json& json, const std::string& place, std::span<const std::string_view> keys, std::size_t required) {
@@ -72,7 +69,7 @@ class PathReader {
 
   private:
     std::string name_;
-    std::vector<Problem> problems_;
+    Problems problems_{Problems::most_of_a_file};
 };
 
 constexpr std::string_view path_keys[] = {"schema", "frames_per_second", "poses"};

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "base/printable.h"
+#include "base/problems.h"
+#include "base/text.h"
 #include "base/whole_text.h"
 #include "display/keys.h"
 #include "files/description/override_hint.h"
@@ -16,25 +18,11 @@
 namespace lfdsim {
 namespace {
 
-// Returns the parts of a dotted path. No key of a description has a dot in it, so an override cannot name one.
-std::vector<std::string_view> split(std::string_view path) {
-    std::vector<std::string_view> parts;
-    for (std::size_t start = 0;;) {
-        const std::size_t dot = path.find('.', start);
-        parts.push_back(path.substr(start, dot - start));
-        if (dot == path.npos) return parts;
-        start = dot + 1;
-    }
-}
-
 // Returns the index that a part of a path means in a list; none beyond its end, as an override changes elements and adds none.
 std::optional<std::size_t> element(std::string_view part, const toml::array& array) {
     const std::optional<std::size_t> index = whole_text<std::size_t>(part);
     return index && *index < array.size() ? index : std::nullopt;
 }
-
-// Whether a part of a path is a number. No key is one: in a table it means an element of a list that does not exist.
-bool is_number(std::string_view part) { return !part.empty() && part.find_first_not_of("0123456789") == part.npos; }
 
 InputError no_element(std::string_view part) {
     return {"", fmt::format("there is no element {} to change; elements are counted from 0, and new ones are added by giving the "
@@ -71,9 +59,8 @@ toml::table parse_value(std::string_view path, std::string_view value) {
 std::string hint_in(std::string_view text, std::size_t line, std::string_view says) {
     std::string table;
     for (std::size_t n = 1; n <= line && !text.empty(); ++n) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        std::string_view one = text.substr(0, text.find_first_of("\r\n"));
-        text.remove_prefix(std::min(end + 1, text.size()));
+        std::string_view one = next_line(text);
+        one = one.substr(0, one.find('\r'));
         one.remove_prefix(std::min(one.find_first_not_of(" \t"), one.size()));
         const std::size_t brackets = one.find_first_not_of('[');
         if (one.starts_with('[') && brackets <= 2)  // the keys of all elements of a list are those of the first
@@ -87,8 +74,7 @@ std::string hint_in(std::string_view text, std::size_t line, std::string_view sa
         }
         std::string_view value = one.substr(equals + 1);
         if (value.find_first_of("\"'") == value.npos) value = value.substr(0, value.find('#'));
-        std::string_view key = one.substr(0, equals);
-        key = key.substr(0, key.find_last_not_of(" \t") + 1);
+        const std::string_view key = trimmed(one.substr(0, equals), " \t");
         if (const std::string hint = override_hint(table + std::string(key), value); !hint.empty())
             return fmt::format("{}: {}", key, hint);
     }
@@ -124,20 +110,19 @@ Source::Source(std::string_view text, std::string_view name, const std::vector<s
     } catch (const toml::parse_error& error) {
         throw InputError(at(error.source()).text, hint_in(text, error.source().begin.line, error.description()));
     }
-    std::vector<Problem> problems;
+    Problems problems;
     for (const std::string& text_of_one : overrides) {
         try {
             apply(text_of_one);
         } catch (const toml::parse_error& error) {
             const std::size_t equals = text_of_one.find('=');  // there is one: a value was parsed
             const std::string hint = override_hint(text_of_one.substr(0, equals), text_of_one.substr(equals + 1));
-            problems.push_back(
-                {"--set " + text_of_one, "the value is not TOML: " + (hint.empty() ? std::string(error.description()) : hint)});
+            problems.add("--set " + text_of_one, "the value is not TOML: {}", hint.empty() ? error.description() : hint);
         } catch (const InputError& error) {
-            problems.push_back({"--set " + text_of_one, error.problems.front().what});
+            problems.add({"--set " + text_of_one, error.problems.front().what});
         }
     }
-    if (!problems.empty()) throw InputError(std::move(problems));
+    problems.report();
 }
 
 void Source::apply(const std::string& override_text) {
@@ -145,7 +130,8 @@ void Source::apply(const std::string& override_text) {
     const std::string_view path = std::string_view(override_text).substr(0, equals);
     if (equals == std::string::npos || path.empty()) throw InputError("", "is not of the form key=value, such as array.pitch_mm=8");
     const std::string_view value = std::string_view(override_text).substr(equals + 1);
-    const std::vector<std::string_view> parts = split(path);
+    // No key has a dot in its name, nor is any a number: in a table that means an element of a list that does not exist.
+    const std::vector<std::string_view> parts = split(path, '.');
     if (parts.size() > 4) throw InputError("", fmt::format("the key has {} parts, allowed are 4", parts.size()));
 
     // Down to the table or list that has the key. Missing tables on the way are created; values are not replaced by tables.
@@ -157,7 +143,7 @@ void Source::apply(const std::string& override_text) {
             set_[std::string(path)] = override_text;
             return;
         }
-        if (!next && node->is_table() && !is_number(parts[i]))
+        if (!next && node->is_table() && !is_digits(parts[i]))
             next = &node->as_table()->insert(parts[i], toml::table{}).first->second;
         if (!next) throw no_element(parts[i]);
         if (!next->is_table() && !next->is_array()) throw InputError("", fmt::format("{} is a value, and has no parts", parts[i]));
@@ -174,7 +160,7 @@ void Source::apply(const std::string& override_text) {
     // The new value takes the place of the old one.
     toml::table holder = parse_value(path, value);
     holder.get("value")->visit([&](auto& given) {
-        if (toml::table* table = node->as_table(); table && !is_number(parts.back()))
+        if (toml::table* table = node->as_table(); table && !is_digits(parts.back()))
             table->insert_or_assign(parts.back(), std::move(given));
         else if (const auto index = table ? std::nullopt : element(parts.back(), *node->as_array()))
             node->as_array()->replace(node->as_array()->cbegin() + std::ptrdiff_t(*index), std::move(given));
@@ -192,7 +178,7 @@ SourcePosition Source::place(std::string_view path) const {
     // Down the path as far as it exists. An override of any part of it has set everything below, too.
     const toml::node* node = &root_;
     std::string inside;
-    for (const std::string_view part : split(path)) {
+    for (const std::string_view part : split(path, '.')) {
         const toml::node* next = child(*node, part);
         if (!next) break;
         inside += inside.empty() ? "" : ".";

@@ -1,6 +1,7 @@
 #include "files/lenses/agf.h"
 
 #include "base/printable.h"
+#include "base/problems.h"
 #include "base/whole_text.h"
 #include "files/description/decode.h"
 #include "files/description/nearest.h"
@@ -14,7 +15,7 @@ namespace lfdsim {
 namespace {
 
 constexpr double nd_tolerance = 1e-4;  // printed values are rounded, some to four digits
-constexpr std::size_t most_agf_problems = 20, longest_glass_name = 64;
+constexpr std::size_t longest_glass_name = 64;
 
 // AGF is a text of lines that begin with a word of two letters. Read are "NM name formula code n_d V_d ...", which begins a glass,
 // "CD c0 c1 ..." with the coefficients of its formula, and "LD low high", the wavelengths in micrometres for which they hold.
@@ -91,17 +92,18 @@ class AgfReader {
     explicit AgfReader(std::string_view name) { read_.file = name; }
 
     GlassCatalogue read(std::string_view text) {
-        for (; !text.empty() && problems_.size() < most_agf_problems; ++line_) read_line(next_line(text));
+        for (; !text.empty(); ++line_) read_line(next_foreign_line(text));
         finish();
-        if (problems_.empty() && !names_) add_problem("", "has no line NM with a glass, which an AGF catalogue has");
-        if (!problems_.empty()) throw InputError(std::move(problems_));
+        if (problems_.empty() && !names_) problems_.add({read_.file, "has no line NM with a glass, which an AGF catalogue has"});
+        problems_.report();
         return std::move(read_);
     }
 
   private:
     std::string place(std::size_t line) const { return fmt::format("{}:{}", read_.file, line); }
-    void add_problem(std::string_view key, const std::string& what) {
-        problems_.push_back(key.empty() ? Problem{read_.file, what} : Problem{place(line_), fmt::format("{}: {}", key, what)});
+    template <class... Values>
+    void refuse(std::string_view key, fmt::format_string<Values...> what, Values&&... values) {
+        problems_.add(place(line_), "{}: {}", key, fmt::format(what, std::forward<Values>(values)...));
     }
     /// Adds a doubt about the glass that finish() examines.
     void doubt(const std::string& glass, const std::string& what) {
@@ -113,7 +115,7 @@ class AgfReader {
         if (words.empty()) return;
         if (words[0] == "NM") return begin(words);
         if (words[0] == "CD" || words[0] == "LD") {
-            if (!names_) return add_problem(words[0], "precedes the first glass, which begins with a line NM");
+            if (!names_) return refuse(words[0], "precedes the first glass, which begins with a line NM");
             (words[0] == "CD" ? entry_.c : entry_.range_um) = numbers(words);
         }
     }
@@ -124,7 +126,7 @@ class AgfReader {
         for (std::size_t k = 1; k < words.size(); ++k) {
             const auto value = number(words[k]);
             if (!value) {
-                add_problem(words[0], fmt::format("\"{}\" is not a number", shortened(words[k])));
+                refuse(words[0], "\"{}\" is not a number", shortened(words[k]));
                 break;
             }
             all.push_back(*value);
@@ -136,14 +138,13 @@ class AgfReader {
         finish();
         entry_ = {};
         entry_.line = line_;
-        if (++names_ > most_glasses) return add_problem("NM", fmt::format("is more than the {} glasses allowed", most_glasses));
-        if (words.size() < 3) return add_problem("NM", "needs a name and the number of a formula");
+        if (++names_ > most_glasses) return refuse("NM", "is more than the {} glasses allowed", most_glasses);
+        if (words.size() < 3) return refuse("NM", "needs a name and the number of a formula");
         if (words[1].size() > longest_glass_name)
-            return add_problem("NM",
-                               fmt::format("\"{}\" is longer than the {} bytes allowed", shortened(words[1]), longest_glass_name));
+            return refuse("NM", "\"{}\" is longer than the {} bytes allowed", shortened(words[1]), longest_glass_name);
         entry_.name = words[1];
         const auto formula = number(words[2]);  // some catalogues write 2.0
-        if (!formula) return add_problem("NM", fmt::format("\"{}\" is not the number of a formula", shortened(words[2])));
+        if (!formula) return refuse("NM", "\"{}\" is not the number of a formula", shortened(words[2]));
         if (*formula >= 1 && *formula <= 13 && *formula == std::floor(*formula)) entry_.formula = int(*formula);
         if (words.size() > 4) entry_.nd = number(words[4]).value_or(0);
     }
@@ -172,7 +173,7 @@ class AgfReader {
     }
 
     GlassCatalogue read_;
-    std::vector<Problem> problems_;
+    Problems problems_{Problems::most_of_a_file};
     AgfGlass entry_;  // the glass whose lines are being read; without a name before the first
     std::size_t line_ = 1, names_ = 0;
 };

@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "base/counted.h"
 #include "base/printable.h"
+#include "base/problems.h"
 #include "checks/first_order.h"
 #include "display/colour.h"
 #include "display/keys.h"
@@ -53,13 +54,13 @@ class LensImport {
             notes.push_back(fmt::format("All lengths of the lens are {:g} times those of the file.", request.scale));
         find_media();
         if (kept_surfaces()) give_apertures();
-        report();
+        problems.report();
         // The display.
         Imported made;
         made.what = "A lens from a lens design program, and a display for it";
         made.display.name = lens.title;
         made.display.lens.kind = surface_lens(made.surfaces);
-        report();
+        problems.report();
         furnish(made.display);
         judge(made.display, "");
         warn(made.display);
@@ -71,14 +72,6 @@ class LensImport {
     }
 
   private:
-    template <class... Values>
-    void refuse(const std::string& where, fmt::format_string<Values...> what, Values&&... values) {
-        problems.push_back({where, fmt::format(what, std::forward<Values>(values)...)});
-    }
-    void report() const {
-        if (!problems.empty()) throw InputError(problems);
-    }
-
     static bool is_in(const GlassCatalogue& catalogue, const LensMedium& medium) {
         return medium.glass && !medium.glass->name.empty() &&
                std::find(catalogue.glasses.begin(), catalogue.glasses.end(), *medium.glass) != catalogue.glasses.end();
@@ -91,12 +84,13 @@ class LensImport {
         for (const LensMedium& m : media) indices.push_back(index_at(m.index, m.glass, nm));
         for (const std::size_t i : {std::size_t(0), lens.surfaces.size() - 2})
             if (media[i] != LensMedium())
-                refuse(lens.surfaces[i].place, "has no air behind it; {} must be in air", i == 0 ? "the object" : "the image");
+                problems.add(lens.surfaces[i].place, "has no air behind it; {} must be in air",
+                             i == 0 ? "the object" : "the image");
         for (const GlassChoice& choice : request.glasses)
             if (taken.contains(choice.name))
                 notes.push_back(fmt::format("Replaced by --glass: {}.", choice.name));
             else
-                refuse("--glass", "the lens has no glass {}", shortened(choice.name));
+                problems.add("--glass", "the lens has no glass {}", shortened(choice.name));
         if (std::any_of(media.begin(), media.end(), [](const LensMedium& m) { return m.glass.has_value(); }))
             notes.push_back(fmt::format("The lens was designed for light of {:.4g} nm{}; lengths here hold for green light.", nm,
                                         lens.beam.wavelength_nm ? "" : ", as far as is known"));
@@ -117,8 +111,8 @@ class LensImport {
         }
         if (const Glass* found = find_glass(drawn.glass, request.catalogues)) return {{}, *found};
         if (unknown.insert(drawn.glass).second)
-            refuse(s.place, "{} (or --glass {}=OTHER, or --glass {}=ND,VD, or its maker's catalogue by --catalogue FILE.agf)",
-                   unknown_glass(drawn.glass, request.catalogues), shortened(drawn.glass), shortened(drawn.glass));
+            problems.add(s.place, "{} (or --glass {}=OTHER, or --glass {}=ND,VD, or its maker's catalogue by --catalogue FILE.agf)",
+                         unknown_glass(drawn.glass, request.catalogues), shortened(drawn.glass), shortened(drawn.glass));
         return {1.5, {}};
     }
 
@@ -138,10 +132,10 @@ class LensImport {
                 fmt::format("Left out, as they neither refract nor stop light: surfaces {}.", fmt::join(left_out, ", ")));
         const bool bends = std::any_of(media.begin(), media.end(), [](const LensMedium& m) { return m != LensMedium(); });
         if (!bends)
-            refuse(lens.surfaces.front().place, "is not followed by any glass: there is no lens");
+            problems.add(lens.surfaces.front().place, "is not followed by any glass: there is no lens");
         else if (kept.size() > max_surfaces)
-            refuse(lens.surfaces[kept[max_surfaces]].place, "is one too many: the lens has {} surfaces, allowed are {}",
-                   kept.size(), max_surfaces);
+            problems.add(lens.surfaces[kept[max_surfaces]].place, "is one too many: the lens has {} surfaces, allowed are {}",
+                         kept.size(), max_surfaces);
         if (const double curvature = lens.surfaces.back().curvature_per_mm; curvature != 0)
             notes.push_back(
                 fmt::format("The file's image is curved, with a radius of {:.6g} mm; the panel is flat.", 1 / curvature));
@@ -173,10 +167,11 @@ class LensImport {
                 "The file has no semi-apertures of surfaces {}: they are as wide as its beam requires, by paraxial rays.",
                 fmt::join(without, ", ")));
         else
-            refuse(lens.surfaces[kept.front()].place,
-                   "no semi-aperture is given for surfaces {}, and of a beam from which they would follow no {} is known; give "
-                   "--semi-aperture-mm",
-                   fmt::join(without, ", "), *missing);
+            problems.add(
+                lens.surfaces[kept.front()].place,
+                "no semi-aperture is given for surfaces {}, and of a beam from which they would follow no {} is known; give "
+                "--semi-aperture-mm",
+                fmt::join(without, ", "), *missing);
     }
 
     // Returns the distance along the axis between two of the file's surfaces, over those that are left out.
@@ -208,8 +203,8 @@ class LensImport {
             surface.glass = media[behind].glass;
             surface.distance_mm = tidy(between(behind, next));
             if (!(surface.distance_mm >= 0 && surface.distance_mm <= longest_mm))
-                refuse(lens.surfaces[behind].place, "the next surface is {} mm behind it, allowed is {}", surface.distance_mm,
-                       length_or_zero.text());
+                problems.add(lens.surfaces[behind].place, "the next surface is {} mm behind it, allowed is {}", surface.distance_mm,
+                             length_or_zero.text());
         }
         return made;
     }
@@ -265,21 +260,22 @@ class LensImport {
         const double to_image = between(kept.back(), last), to_object = between(0, kept.front());
         if (const double distance = request.flip ? to_object : to_image; std::isfinite(distance)) {
             if (const double gap_mm = distance + c.front_principal_mm; diverges && !(gap_mm > 0)) {
-                refuse("--gap-mm",
-                       "the lens diverges (focal length {:.6g} mm): the file's {} is virtual, and no panel can be there; give the "
-                       "gap, or a lens that converges",
-                       c.focal_length_mm, request.flip ? "object" : "image");
-                report();
+                problems.add(
+                    "--gap-mm",
+                    "the lens diverges (focal length {:.6g} mm): the file's {} is virtual, and no panel can be there; give the "
+                    "gap, or a lens that converges",
+                    c.focal_length_mm, request.flip ? "object" : "image");
+                problems.report();
             }
             notes.push_back(fmt::format("The panel is at the file's {}, {:.6g} mm from the nearest surface.",
                                         request.flip ? "object" : "image", distance));
             return tidy(distance + c.front_principal_mm);
         }
         if (!(c.focal_length_mm > 0 && c.focal_length_mm <= longest_mm)) {
-            refuse("--gap-mm",
-                   "the file's {} is at infinity, and a lens of focal length {:.6g} mm{} has no focus there; give the gap",
-                   request.flip ? "object" : "image", c.focal_length_mm, diverges ? ", which diverges," : "");
-            report();
+            problems.add("--gap-mm",
+                         "the file's {} is at infinity, and a lens of focal length {:.6g} mm{} has no focus there; give the gap",
+                         request.flip ? "object" : "image", c.focal_length_mm, diverges ? ", which diverges," : "");
+            problems.report();
         }
         notes.push_back(fmt::format("The file's {} is at infinity: the panel is in the lens's focal plane.",
                                     request.flip ? "object" : "image"));
@@ -323,9 +319,9 @@ class LensImport {
             } else if (p.where.starts_with("camera.") || p.where.starts_with("diffuser.")) {
                 p.what += "; --distance-mm and --scale change that";
             }
-            problems.push_back(std::move(p));
+            problems.add(std::move(p));
         }
-        report();
+        problems.report();
     }
 
     DrawnLens lens;
@@ -337,7 +333,7 @@ class LensImport {
     bool by_beam = false;           // semi-apertures follow from the file's beam
     std::set<std::string> unknown;  // glasses that no catalogue has
     std::set<std::string> taken;    // glasses that the user replaces
-    std::vector<Problem> problems;
+    Problems problems;
 };
 
 }  // namespace

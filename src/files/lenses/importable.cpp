@@ -2,16 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-
+#include "base/text.h"
 #include "files/description/text_file.h"
 
 namespace lfdsim {
 
 std::variant<DrawnLens, Calibration> read_importable(const std::filesystem::path& path) {
-    std::string kind = path.extension();
-    for (char& c : kind) c = char(std::tolower(static_cast<unsigned char>(c)));
-    const std::string name = path.string();
+    const std::string kind = lower_case(path.extension().string()), name = path.string();
     if (kind == ".zmx") return parse_zmx(read_text(path, "a lens in Zemax's format"), name);
     if (kind == ".roa") return parse_rayoptics(read_text(path, "a lens in ray-optics's format"), name);
     if (kind == ".json") {

@@ -70,10 +70,6 @@ const LensJson& JsonReader::list(const LensJson& json, const std::string& place,
     throw InputError(name, fmt::format("{} is not a list of {} to {}: is this a saved lens?", place, least, most));
 }
 
-void JsonReader::report() const {
-    if (!problems.empty()) throw InputError(problems);
-}
-
 DrawnLens LensJsonReader::done() {
     report();
     return std::move(lens);

@@ -1,14 +1,12 @@
 // The base of the readers of lenses and calibrations in JSON: members that may be absent, and faults with their places. Floor 2.
 #pragma once
+#include "base/problems.h"
 #include "files/lenses/drawn_lens.h"
-
-#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace lfdsim {
 
@@ -25,27 +23,26 @@ bool is_true(const LensJson&);
 /// Returns a text, or the JSON or type of any other value, shortened so that a message may quote it.
 std::string word_of(const LensJson&);
 
-/// Collects the faults of a file, and throws them as one InputError when there are 20.
+/// Collects the faults of a file.
 class JsonReader {
   protected:
     explicit JsonReader(std::string_view file) : name(file) {}
 
     template <class... Values>
     void refuse(const std::string& place, fmt::format_string<Values...> what, Values&&... values) {
-        problems.push_back({fmt::format("{}: {}", name, place), fmt::format(what, std::forward<Values>(values)...)});
-        if (problems.size() >= 20) throw InputError(std::move(problems));
+        problems.add(fmt::format("{}: {}", name, place), what, std::forward<Values>(values)...);
     }
     /// Returns the number; refuses other values and returns 0.
     double number(const LensJson&, const std::string& place, bool may_be_infinite = false);
     /// Returns the value, which must be a list of `least` to 1000 elements. Throws InputError otherwise.
     const LensJson& list(const LensJson&, const std::string& place, std::size_t least) const;
     /// Throws InputError with all faults, if there are any.
-    void report() const;
+    void report() const { problems.report(); }
 
     std::string name;
 
   private:
-    std::vector<Problem> problems;
+    Problems problems{Problems::most_of_a_file};
 };
 
 /// Collects a lens and its faults.

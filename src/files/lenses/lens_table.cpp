@@ -3,6 +3,8 @@
 #include "base/constants.h"
 #include "base/counted.h"
 #include "base/printable.h"
+#include "base/problems.h"
+#include "base/text.h"
 #include "base/whole_text.h"
 #include "files/description/nearest.h"
 #include "files/description/text_file.h"
@@ -18,24 +20,15 @@
 namespace lfdsim {
 namespace {
 
-constexpr std::size_t most_table_bytes = std::size_t(1) << 30, most_table_problems = 20;
+constexpr std::size_t most_table_bytes = std::size_t(1) << 30;
 
 constexpr std::string_view table_columns[] = {"i", "j", "dx_mm", "dy_mm", "dz_mm", "tilt_x_deg", "tilt_y_deg", "curvature"};
 constexpr std::size_t column_count = std::size(table_columns);
 
-std::string_view without_blanks(std::string_view word) {
-    const std::size_t first = word.find_first_not_of(" \t\r"), last = word.find_last_not_of(" \t\r");
-    return first == word.npos ? std::string_view() : word.substr(first, last - first + 1);
-}
-
 std::vector<std::string_view> cells_of(std::string_view line) {
-    std::vector<std::string_view> words;
-    for (;;) {
-        const std::size_t comma = line.find(',');
-        words.push_back(without_blanks(line.substr(0, comma)));
-        if (comma == line.npos) return words;
-        line.remove_prefix(comma + 1);
-    }
+    std::vector<std::string_view> cells = split(line, ',');
+    for (std::string_view& cell : cells) cell = trimmed(cell);
+    return cells;
 }
 
 // Reads lines and collects their faults, with the number of the line.
@@ -46,11 +39,13 @@ class TableReader {
 
     std::vector<GivenLensError> read() {
         std::string_view line;
-        if (!next(line) || !read_header(line)) report();
+        if (!next(line))
+            throw InputError(name_, fmt::format("is empty; its first line names the columns: {}", fmt::join(table_columns, ",")));
+        if (!read_header(line)) problems_.report();
         while (next(line))
             if (!line.empty()) read_lens(line);
         refuse_doubles();
-        report();
+        problems_.report();
         std::vector<GivenLensError> lenses;
         lenses.reserve(rows_.size());
         for (const TableRow& row : rows_) lenses.push_back(row.lens);
@@ -65,27 +60,16 @@ class TableReader {
 
     bool next(std::string_view& line) {
         if (text_.empty()) return false;
-        const std::size_t end = text_.find('\n');
-        line = without_blanks(text_.substr(0, end));
-        text_.remove_prefix(end == text_.npos ? text_.size() : end + 1);
+        line = trimmed(next_line(text_));
         ++line_;
         return true;
     }
 
     template <class... Args>
     void refuse(fmt::format_string<Args...> what, Args&&... args) {
-        refuse_at(line_, fmt::format(what, std::forward<Args>(args)...));
+        problems_.add(place(line_), what, std::forward<Args>(args)...);
     }
-    void refuse_at(std::size_t line, std::string what) {
-        problems_.push_back({fmt::format("{}:{}", name_, line), std::move(what)});
-        if (problems_.size() >= most_table_problems) report();
-    }
-    void report() {
-        if (line_ == 0)
-            problems_.push_back(
-                {name_, "is empty; its first line names the columns: " + fmt::format("{}", fmt::join(table_columns, ","))});
-        if (!problems_.empty()) throw InputError(std::move(problems_));
-    }
+    std::string place(std::size_t line) const { return fmt::format("{}:{}", name_, line); }
 
     bool read_header(std::string_view line) {
         if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);  // spreadsheets begin with a byte order mark
@@ -141,8 +125,8 @@ class TableReader {
         });
         for (std::size_t k = 1; k < rows_.size(); ++k)
             if (rows_[k].lens.i == rows_[k - 1].lens.i && rows_[k].lens.j == rows_[k - 1].lens.j)
-                refuse_at(rows_[k].line,
-                          fmt::format("lens ({}, {}) is also in line {}", rows_[k].lens.i, rows_[k].lens.j, rows_[k - 1].line));
+                problems_.add(place(rows_[k].line), "lens ({}, {}) is also in line {}", rows_[k].lens.i, rows_[k].lens.j,
+                              rows_[k - 1].line);
     }
 
     std::string_view text_;  // the part that has not been read
@@ -152,7 +136,7 @@ class TableReader {
     std::size_t line_ = 0;
     std::vector<std::size_t> order_;  // for each column of the file, its index in table_columns
     std::vector<TableRow> rows_;
-    std::vector<Problem> problems_;
+    Problems problems_{Problems::most_of_a_file};
 };
 
 }  // namespace

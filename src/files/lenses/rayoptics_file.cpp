@@ -1,7 +1,7 @@
+#include "base/text.h"
 #include "files/lenses/lens_json.h"
 
 #include <algorithm>
-#include <cctype>
 
 // The .roa of ray-optics: objects are {"__instance_type__": [module, class], "attributes": {...}}. Interfaces and the gaps between
 // them are lists; the shape of an interface is the profile that its profile_id names in a dictionary. Lengths are in a unit that
@@ -37,7 +37,7 @@ class RayOpticsReader : LensJsonReader {
         const LensJson& system = attributes(member(model, "system_spec"));
         if (member(system, "title").is_string()) lens.title = member(system, "title").get<std::string>();
         read_wavelength(attributes(member(attributes(member(model, "optical_spec")), "spectral_region")));
-        read_unit(word_of(member(system, "_dimensions")));
+        read_unit(lower_case(word_of(member(system, "_dimensions"))));
         return done();
     }
 
@@ -120,8 +120,7 @@ class RayOpticsReader : LensJsonReader {
             lens.beam.wavelength_nm = number(waves[reference.get<std::size_t>()], "spectral_region.wavelengths");
     }
 
-    void read_unit(std::string unit) {
-        for (char& c : unit) c = char(std::tolower(static_cast<unsigned char>(c)));
+    void read_unit(const std::string& unit) {
         constexpr std::pair<std::string_view, double> units[] = {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}};
         const auto known = std::find_if(std::begin(units), std::end(units), [&](const auto& u) { return u.first == unit; });
         if (known == std::end(units))

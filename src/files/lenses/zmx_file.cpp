@@ -10,6 +10,7 @@
 
 #include "base/counted.h"
 #include "base/printable.h"
+#include "base/problems.h"
 #include "base/whole_text.h"
 #include "files/description/decode.h"
 #include "files/description/nearest.h"
@@ -19,7 +20,7 @@
 namespace lfdsim {
 namespace {
 
-constexpr std::size_t most_problems_of_zmx = 20, most_surfaces_of_zmx = 1000;
+constexpr std::size_t most_surfaces_of_zmx = 1000;
 
 // Keywords that change no ray: names and notes, how the program draws, analyses and optimises, and which values it solved for.
 constexpr std::string_view harmless[] = {
@@ -46,17 +47,16 @@ class ZmxReader {
     ZmxReader(std::string_view all, std::string_view file) : text(all), name(file) {}
 
     DrawnLens read() {
-        for (std::string_view rest = text; !rest.empty(); ++line) read_line(next_line(rest));
+        for (std::string_view rest = text; !rest.empty(); ++line) read_line(next_foreign_line(rest));
         finish();
-        if (!problems.empty()) throw InputError(std::move(problems));
+        problems.report();
         return std::move(lens);
     }
 
   private:
     template <class... Values>
     void refuse(std::size_t at, fmt::format_string<Values...> what, Values&&... values) {
-        problems.push_back({fmt::format("{}:{}", name, at), fmt::format(what, std::forward<Values>(values)...)});
-        if (problems.size() >= most_problems_of_zmx) throw InputError(std::move(problems));
+        problems.add(fmt::format("{}:{}", name, at), what, std::forward<Values>(values)...);
     }
     std::string here() const { return surfaces.empty() ? std::string() : fmt::format("surface {}: ", surfaces.size() - 1); }
 
@@ -91,11 +91,11 @@ class ZmxReader {
         if (whole_text<std::size_t>(given) != surfaces.size()) {
             refuse(line, "SURF {}, where surface {} should begin; a part of the file is missing", shortened(given),
                    surfaces.size());
-            throw InputError(std::move(problems));
+            problems.report();
         }
         if (surfaces.size() >= most_surfaces_of_zmx) {
             refuse(line, "has more than {} surfaces", most_surfaces_of_zmx);
-            throw InputError(std::move(problems));
+            problems.report();
         }
         const std::size_t number = surfaces.size();
         surfaces.emplace_back().line = line;
@@ -326,7 +326,7 @@ class ZmxReader {
     std::vector<std::size_t> coated;            // numbers of surfaces with coatings
     std::vector<std::string> unread;            // unknown keywords, with their lines
     DrawnLens lens;
-    std::vector<Problem> problems;
+    Problems problems{Problems::most_of_a_file};
 };
 
 // Returns the bytes with a byte order mark before UTF-16 that has none: it is recognised by the zero byte of its first letter.

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <regex>
-#include <sstream>
 
 #include "base/constants.h"
 #include "base/counted.h"
+#include "base/text.h"
 #include "base/whole_text.h"
 #include "files/description/text_file.h"
 #include "files/views/views_internal.h"
@@ -38,14 +38,12 @@ double number_of(const std::string& text) { return whole_text<double>(text).valu
 class Parameters {
   public:
     explicit Parameters(const fs::path& path) : name_(path.string()) {
-        std::istringstream text(read_text(path, "the parameters of a light field"));
-        const auto trimmed = [](const std::string& s) {
-            const std::size_t from = s.find_first_not_of(" \t\r"), to = s.find_last_not_of(" \t\r");
-            return from == s.npos ? std::string() : s.substr(from, to - from + 1);
-        };
-        for (std::string line; std::getline(text, line);)
+        const std::string text = read_text(path, "the parameters of a light field");
+        for (std::string_view rest = text; !rest.empty();) {
+            const std::string_view line = next_line(rest);
             if (const std::size_t equals = line.find('='); equals != line.npos && !line.starts_with('#') && !line.starts_with(';'))
-                values_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+                values_[std::string(trimmed(line.substr(0, equals)))] = trimmed(line.substr(equals + 1));
+        }
     }
     double positive(const std::string& key) const {
         const auto found = values_.find(key);
@@ -68,9 +66,7 @@ class Parameters {
     std::map<std::string, std::string> values_;
 };
 
-bool is_number(std::string_view text) {
-    return !text.empty() && text.size() <= 9 && text.find_first_not_of("0123456789") == text.npos;
-}
+bool is_number(std::string_view text) { return text.size() <= 9 && is_digits(text); }
 
 }  // namespace
 

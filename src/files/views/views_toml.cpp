@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "base/counted.h"
+#include "base/problems.h"
 #include "display/keys.h"
 #include "files/description/nearest.h"
 #include "files/description/source.h"
@@ -35,9 +36,8 @@ class ViewsReader {
         for (const auto& [key, value] : source_.root())
             if (std::find(std::begin(known_keys), std::end(known_keys), key.str()) == std::end(known_keys)) {
                 const std::string_view near = nearest(key.str(), known_keys);
-                problems_.push_back(
-                    {source_.place(key, key.str()).text, fmt::format("unknown key \"{}\"{}", key.str().substr(0, 40),
-                                                                     near.empty() ? "" : fmt::format("; did you mean {}?", near))});
+                problems_.add(source_.place(key, key.str()).text, "unknown key \"{}\"{}", key.str().substr(0, 40),
+                              near.empty() ? "" : fmt::format("; did you mean {}?", near));
             }
         std::int64_t schema = 0;
         if (!has("schema"))
@@ -49,8 +49,8 @@ class ViewsReader {
     bool has(std::string_view key) const { return source_.root().contains(key); }
     template <class... Values>
     void refuse(std::string_view key, fmt::format_string<Values...> what, Values&&... values) {
-        problems_.push_back({has(key) ? source_.place(key).text : source_.place("").text,
-                             fmt::format("{} {}", key, fmt::format(what, std::forward<Values>(values)...))});
+        problems_.add(has(key) ? source_.place(key).text : source_.place("").text, "{} {}", key,
+                      fmt::format(what, std::forward<Values>(values)...));
     }
     /// Returns a key of the file with its place, "views.toml:4:15: baseline_mm".
     std::string placed(std::string_view key) const { return fmt::format("{}: {}", source_.place(key).text, key); }
@@ -101,9 +101,7 @@ class ViewsReader {
                 name.substr(0, 80));
         return name;
     }
-    void report() const {
-        if (!problems_.empty()) throw InputError(problems_);
-    }
+    void report() const { problems_.report(); }
 
   private:
     const std::string& checked(const fs::path& path) const {
@@ -112,7 +110,7 @@ class ViewsReader {
     }
     std::string text_;
     Source source_;
-    std::vector<Problem> problems_;
+    Problems problems_;
 };
 
 /// Returns the position, row by row from the upper left, of a picture by its number in an order that begins at a corner (an index

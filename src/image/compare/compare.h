@@ -15,6 +15,18 @@ struct Comparison {
     int max_column, max_row, max_channel;  // of the first pixel, row by row, with that difference
 };
 
+/// Calls put(name, value) for each figure, by the name that it has in JSON and in Python.
+template <class Put>
+void visit_figures(const Comparison& c, const Put& put) {
+    put("ssim", c.ssim);
+    put("psnr_db", c.psnr_db);
+    put("rmse", c.rmse);
+    put("max_difference", c.max_difference);
+    put("max_column", c.max_column);
+    put("max_row", c.max_row);
+    put("max_channel", c.max_channel);
+}
+
 /// Compares two pictures, or one region of both. Throws InputError unless both have the same size and the region is at least 11 x
 /// 11 pixels and within them.
 Comparison compare(const Image& a, const Image& b, std::optional<Rect> region = {});

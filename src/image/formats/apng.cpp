@@ -1,7 +1,7 @@
 #include "image/formats/apng.h"
 
+#include "base/output_file.h"
 #include "image/formats/encoding.h"
-#include "image/formats/file.h"
 #include "image/formats/png_memory.h"
 
 #include <tbb/parallel_for.h>
@@ -103,9 +103,7 @@ void write_animation(const std::filesystem::path& path, std::span<const Image> f
         bytes += chunk("fdAT", data + stills[k].pixels);
     }
     bytes += chunk("IEND", "");
-    detail::OutputFile file(path);
-    file.write(bytes.data(), bytes.size());
-    file.commit();
+    write_file(path, bytes);
 }
 
 }  // namespace lfdsim

@@ -2,11 +2,10 @@
 #include "image/formats/picture_size.h"
 
 #include "base/free_memory.h"
+#include "base/text.h"
 #include "image/formats/formats.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cctype>
 #include <set>
 
 namespace lfdsim {
@@ -18,11 +17,7 @@ namespace fs = std::filesystem;
 enum class Format { png, exr, npy, pfm, jpeg };
 
 /// Returns the end of a name in lower case: ".png".
-std::string extension(const fs::path& path) {
-    std::string text = path.extension().string();
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
+std::string extension(const fs::path& path) { return lower_case(path.extension().string()); }
 
 Format format_to_read(const fs::path& path) {
     const std::string e = extension(path);

@@ -125,7 +125,7 @@ void write_npy(Output& file, const Image& image, Job& job) {
 namespace lfdsim {
 
 void write_npy(const std::filesystem::path& path, std::span<const std::int64_t> shape, std::span<const float> values) {
-    detail::OutputFile file(path);
+    OutputFile file(path);
     detail::write_npy_header(file, shape);
     file.write(values.data(), values.size_bytes());
     file.commit();

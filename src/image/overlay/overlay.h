@@ -77,6 +77,19 @@ struct Overlay {
     Match match;
 };
 
+/// Calls put(name, value) for each figure, by the name that it has in JSON and in Python.
+template <class Put>
+void visit_figures(const Overlay& o, const Put& put) {
+    put("ssim", o.match.ssim);
+    put("rmse", o.match.rmse);
+    put("psnr_db", o.match.psnr_db);
+    put("gains", o.match.gains);
+    put("blur_px", o.match.blur_px);
+    put("pixels", o.screen.pixels());
+    put("unsaturated_share", o.match.used);
+    put("corners", o.corners);
+}
+
 /// Returns the bytes that lay_over() takes for a view of this size, in addition to the pictures.
 constexpr double overlay_bytes(double view_width, double view_height) { return 160 * view_width * view_height; }
 

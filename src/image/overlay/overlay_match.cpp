@@ -1,3 +1,4 @@
+#include "base/constants.h"
 #include "base/input_error.h"
 #include "image/compare/blur.h"
 #include "image/overlay/overlay.h"
@@ -14,7 +15,6 @@ namespace {
 constexpr int cell_side = 8;                            // pixels; more than a blur or a misplaced corner moves light
 constexpr double least_share = 0.05;                    // of the brightest cell: darker ones do not determine a gain
 constexpr double least_used = 0.01, most_blur_px = 64;  // share of the screen that must not be saturated; pixels of the view
-constexpr const char* colour_names[] = {"red", "green", "blue"};
 
 /// Mean light of a square of pixels that are on the screen and not saturated.
 struct MeanSquare {
@@ -207,7 +207,7 @@ std::array<double, 3> fit_gains(const Image& simulated, const Aligned& photo, do
             throw InputError(
                 "", fmt::format("the photograph's {} channel is black between the corners, the view's is not; check the corners, "
                                 "or expose it more",
-                                colour_names[c]));
+                                colour_of_channel[c]));
         sum += result[c];
         ++known;
     }

@@ -1,5 +1,6 @@
 #include "interchange/peers/peers.h"
 
+#include "base/constants.h"
 #include "display/colour.h"
 #include "interchange/peers/python.h"
 #include "interchange/peers/scene_text.h"
@@ -50,8 +51,8 @@ PeerScene peer_scene(Peer peer, const Display& display, const Geometry& geometry
     const double nm = display.panel.wavelengths_nm[std::size_t(*options.channel)];
     const Display seen = at_wavelength(display, nm);
     PeerScene scene = scene_of(peer, seen, resolve(seen), options);
-    constexpr const char* names[] = {"red", "green", "blue"};
-    scene.deviations.push_back(fmt::format("Only {} emits light, with the indices at {} nm.", names[*options.channel], nm));
+    scene.deviations.push_back(
+        fmt::format("Only {} emits light, with the indices at {} nm.", colour_of_channel[*options.channel], nm));
     return scene;
 }
 

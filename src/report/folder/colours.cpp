@@ -1,19 +1,20 @@
 #include "report/folder/colours.h"
 
 #include "analysis/core/figure_json.h"
+#include "base/constants.h"
 #include "display/colour.h"
 #include "geometry/geometry.h"
 
 namespace lfdsim {
 
 std::vector<ChannelTheory> theory_by_colour(const Display& d) {
-    constexpr std::pair<const char*, const char*> channels[] = {{"r", "red"}, {"g", "green"}, {"b", "blue"}};
+    constexpr const char* keys[] = {"r", "g", "b"};
     std::vector<ChannelTheory> all;
     if (!disperses(d)) return all;
     for (std::size_t k = 0; k < 3; ++k) {
         const double nm = d.panel.wavelengths_nm[k];
         const Theory t = theory(d, resolve(d, nm));
-        all.push_back({channels[k].first, channels[k].second, nm, t.focal_length_mm, t.gap_mm, t.central_depth_mm, {}});
+        all.push_back({keys[k], colour_of_channel[k], nm, t.focal_length_mm, t.gap_mm, t.central_depth_mm, {}});
         for (const Medium& medium : media_of(d))
             if (medium.glass && medium.is_passed) all.back().indices.emplace_back(medium.table, index_of(*medium.glass, nm));
     }

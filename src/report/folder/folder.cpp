@@ -1,9 +1,9 @@
 #include "report/folder/folder.h"
 
 #include "analysis/core/figure_json.h"
-#include "base/printable.h"
+#include "base/json_utf8.h"
+#include "base/output_file.h"
 #include "image/formats/apng.h"
-#include "image/formats/file.h"
 #include "image/formats/image_file.h"
 #include "image/scaled.h"
 #include "report/folder/run_settings.h"
@@ -62,17 +62,26 @@ InputError foreign(const fs::path& path) {
     return {path.string(), "is not a result of lfdsim and would be overwritten; give another folder, or --replace"};
 }
 
-// Returns JSON as text in which characters that control a terminal are escaped, as names may have them.
-std::string dump(const Json& json) { return printable_lines(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n"; }
-
 }  // namespace
+
+Json to_json(const std::vector<Finding>& findings) {
+    Json all = Json::array();
+    for (const Finding& f : findings)
+        all.push_back({{"what", f.what},
+                       {"unit", f.unit},
+                       {"measured", numbers_json(f.measured)},
+                       {"error", numbers_json(f.error)},
+                       {"theory", numbers_json(f.theory)},
+                       {"remark", f.remark}});
+    return all;
+}
 
 ResultFolder::ResultFolder(fs::path path, Json settings) : path_(std::move(path)), settings_(std::move(settings)) {
     std::error_code error;
-    if (path_.empty()) throw InputError("--output", "the name is empty; give a folder");
+    require_name(path_.string(), "--output", "a folder");
     fs::create_directories(path_, error);
     if (!fs::is_directory(path_)) throw InputError(path_.string(), "is not a folder and cannot be made one");
-    detail::check_replaceable(path_ / report_name);
+    check_replaceable(path_ / report_name);
 }
 
 Json ResultFolder::read(const Measure& measure) const {
@@ -214,29 +223,17 @@ Json ResultFolder::write(const Measure& measure, const Result& result, double se
         keep(animations, animation.name + ".png", "caption", animation.caption);
     }
     // NAME.json, last.
-    Json findings = Json::array();
-    for (const Finding& f : result.findings)
-        findings.push_back({{"what", f.what},
-                            {"unit", f.unit},
-                            {"measured", numbers_json(f.measured)},
-                            {"error", numbers_json(f.error)},
-                            {"theory", numbers_json(f.theory)},
-                            {"remark", f.remark}});
     Json json = result.figures;
     json["notes"] = result.notes;
     json["report"] = {{"measure", measure.name},   {"title", measure.title},   {"says", measure.says},
-                      {"source", measure.source},  {"seconds", seconds},       {"findings", findings},
+                      {"source", measure.source},  {"seconds", seconds},       {"findings", to_json(result.findings)},
                       {"remarks", result.remarks}, {"plots", plots},           {"maps", maps},
                       {"pictures", pictures},      {"animations", animations}, {"files", files}};
     json["settings"] = settings_;
-    write_text(std::string(measure.name) + ".json", dump(json));
+    write_text(std::string(measure.name) + ".json", json_file(json));
     return json;
 }
 
-void ResultFolder::write_text(const std::string& name, const std::string& text) const {
-    detail::OutputFile file(path_ / name);
-    file.write(text.data(), text.size());
-    file.commit();
-}
+void ResultFolder::write_text(const std::string& name, const std::string& text) const { write_file(path_ / name, text); }
 
 }  // namespace lfdsim

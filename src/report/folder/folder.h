@@ -9,6 +9,9 @@
 
 namespace lfdsim {
 
+/// Returns the lines of a report's table as they are in NAME.json and from Python.
+Json to_json(const std::vector<Finding>&);
+
 /// A folder that contains for each measure: NAME.json (its figures, and under "report" what the report shows), CSV tables, SVG
 /// plots and maps, PNG pictures and animations (reduced, so that a report can contain them). Files are written under a temporary
 /// name and renamed; NAME.json is written last, so a measure that has one is complete.

@@ -1,7 +1,7 @@
 #include "report/folder/folder_lock.h"
 
 #include "base/input_error.h"
-#include "image/formats/file.h"
+#include "base/output_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,7 +12,7 @@
 namespace lfdsim {
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
-    detail::check_folder(folder);
+    check_folder(folder);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -23,7 +23,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
         close(descriptor_);
         throw InputError(folder.string(), "another run is writing its results there; wait until it ends, or give another folder");
     }
-    detail::remove_abandoned(folder, {});
+    remove_abandoned(folder, {});
 }
 
 FolderLock::~FolderLock() { close(descriptor_); }

@@ -1,5 +1,6 @@
 #include "report/pages/report_parts.h"
 
+#include "base/json_utf8.h"
 #include "geometry/sharp_range.h"
 #include "image/formats/encoding.h"
 #include "image/formats/image_file.h"
@@ -218,8 +219,7 @@ std::string measure_section(const ResultFolder& folder, const Json& measured) {
     html += fmt::format(
         "<details><summary>All figures, as in {0}.json</summary>\n<pre>{1}</pre>\n</details>\n"
         "<p class=\"files\">Files: {0}.json{2}; measured in {3:.1f} s</p>\n",
-        text_of(report, "measure"), escaped(figures.dump(2, ' ', false, Json::error_handler_t::replace)), files,
-        report.at("seconds").get<double>());
+        text_of(report, "measure"), escaped(json_utf8(figures, 2)), files, report.at("seconds").get<double>());
     return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<p class=\"says\">{}</p>\n{}</section>\n", text_of(report, "measure"),
                        text_of(report, "title"), text_of(report, "says"), folded("Plots, pictures and remarks", html));
 }

@@ -1,6 +1,7 @@
 #include "report/plots/svg_drawing.h"
 
 #include "base/printable.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -43,10 +44,7 @@ double text_width(std::string_view text, double size) {
     static_assert(std::size(widths) == '~' - ' ' + 1);
     constexpr int widest = 100;  // assumed of characters that are not ASCII
     int sum = 0;
-    for (const char c : text) {
-        const bool begins = (c & 0xc0) != 0x80;  // a character of UTF-8
-        sum += c >= ' ' && c <= '~' ? widths[c - ' '] : begins ? widest : 0;
-    }
+    for (const char c : text) sum += c >= ' ' && c <= '~' ? widths[c - ' '] : begins_character(c) ? widest : 0;
     return size * sum / 100;
 }
 

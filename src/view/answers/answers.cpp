@@ -1,6 +1,7 @@
 #include "view/answers/answers.h"
 
 #include "analysis/core/figure_json.h"
+#include "base/json_utf8.h"
 #include "content/content.h"
 #include "display/keys.h"
 #include "files/description/display_file.h"
@@ -69,7 +70,7 @@ Json in_utf8(Json json) {
         json.dump();
         return json;
     } catch (const Json::type_error&) {
-        return Json::parse(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+        return Json::parse(json_utf8(json));
     }
 }
 

@@ -108,7 +108,7 @@ class Lister {
         add_all("diffuser.");
         for (Json& control : list_) control["suggested"] = std::exchange(control["value"], nullptr);
         const auto after =
-            std::find_if(all.begin(), all.end(), [](const Json& c) { return c["table"] == table_of<Camera>().name; });
+            std::find_if(all.begin(), all.end(), [](const Json& c) { return c["table"] == TableOf<Camera>::table.name; });
         all.insert(after, list_.begin(), list_.end());
         list_ = std::move(all);
     }
@@ -122,7 +122,7 @@ class Lister {
             return;
         Json control{{"key", path}, {"table", table}, {"label", label(key.name)}, {"unit", unit_of(std::string(key.name))}};
         auto described = value_at(described_, path);
-        if (!described && table == table_of<Diffuser>().name) described = value_at(trial_, path);
+        if (!described && table == TableOf<Diffuser>::table.name) described = value_at(trial_, path);
         const Field* const* same = described ? std::get_if<const Field*>(&*described) : nullptr;
         add(control, path, key.range, field, same ? *same : nullptr);
         if (!key.absent.empty()) control["absent"] = key.absent;  // such a key may be removed
@@ -222,27 +222,28 @@ class Lister {
     template <class Number>
     void add(Json& control, const std::string& path, const Range& range, std::optional<Number>& field,
              const std::optional<Number>* described) {
-        const bool absent = !field;
         const Number start = to<Number>(suggested(path, described_, geometry_));
-        if (absent) field = start;
         const Number anchor = described && *described ? **described : start;
-        add(control, path, range, *field, &anchor);
-        if (!absent) return;
-        control["suggested"] = control["value"];
-        control["value"] = nullptr;
-        field.reset();
+        add_or_suggest(control, path, range, field, start, &anchor);
     }
 
     // A count that is not given follows panel and pitch.
     template <class Number>
     void add(Json& control, const std::string& path, const Range& range, std::optional<std::array<Number, 2>>& field,
              const std::optional<std::array<Number, 2>>* described) {
+        add_or_suggest(control, path, range, field, lens_count(trial_.panel, trial_.array),
+                       described && *described ? &**described : nullptr);
+    }
+
+    // A value that is not given is suggested: `start`.
+    template <class T>
+    void add_or_suggest(Json& control, const std::string& path, const Range& range, std::optional<T>& field, const T& start,
+                        const T* described) {
         const bool absent = !field;
-        if (absent) field = lens_count(trial_.panel, trial_.array);
-        add(control, path, range, *field, described && *described ? &**described : nullptr);
+        if (absent) field = start;
+        add(control, path, range, *field, described);
         if (!absent) return;
-        control["suggested"] = control["value"];
-        control["value"] = nullptr;
+        control["suggested"] = std::exchange(control["value"], nullptr);
         field.reset();
     }
 

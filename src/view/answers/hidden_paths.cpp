@@ -1,6 +1,6 @@
 #include "view/answers/hidden_paths.h"
 
-#include <nlohmann/json.hpp>
+#include "base/json_utf8.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,7 +14,7 @@ constexpr std::string_view cut = "\u2026/";
 
 /// Returns a text as it is written in JSON, without the quotes.
 std::string in_json(const std::string& text) {
-    const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string quoted = json_utf8(nlohmann::json(text));
     return quoted.substr(1, quoted.size() - 2);
 }
 

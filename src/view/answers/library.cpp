@@ -1,14 +1,13 @@
 #include "view/answers/library.h"
 
 #include "base/printable.h"
+#include "base/text.h"
 #include "content/content.h"
 #include "display/keys.h"
 #include "files/description/display_file.h"
 #include "files/description/text_file.h"
 #include "geometry/camera.h"
 #include "image/formats/picture_size.h"
-
-#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,17 +24,8 @@ constexpr int deepest = 6;  // folders below the served one
 
 std::string quoted(const std::string& name) { return fmt::format("\"{}\"", printable(name)); }
 
-// Whether a name is UTF-8; messages in JSON cannot have others.
-bool is_utf8(const std::string& text) {
-    try {
-        nlohmann::json(text).dump();
-        return true;
-    } catch (const nlohmann::json::type_error&) {
-        return false;
-    }
-}
-
-/// Returns a name as a relative path whose parts are neither empty nor begin with a dot. Throws InputError for others.
+/// Returns a name as a relative path whose parts are neither empty nor begin with a dot. Throws InputError for others, and for
+/// names that are not UTF-8, which messages in JSON cannot have.
 fs::path relative(const std::string& name) {
     const fs::path path(name);
     if (name.empty() || name.size() > longest_name || name.find('\0') != name.npos || !is_utf8(name))
@@ -62,9 +52,7 @@ fs::path resolve_inside(const fs::path& path, const fs::path& folder, const std:
 }
 
 bool ends_in(const fs::path& path, std::span<const std::string_view> endings) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+    return std::ranges::find(endings, lower_case(path.extension().string())) != endings.end();
 }
 
 struct Served {
@@ -91,18 +79,12 @@ const Served& served_as(Library::FileKind kind) {
 
 /// Whether a text is meant as a display's description: it has the key "schema" before its first table. Nothing else is checked.
 bool is_description(std::string_view text) {
-    constexpr std::string_view blank = " \t\r", key = "schema";
+    constexpr std::string_view key = "schema";
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        std::string_view line = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        line.remove_prefix(std::min(line.find_first_not_of(blank), line.size()));
+        const std::string_view line = trimmed(next_line(text));
         if (line.starts_with('[')) return false;
-        if (!line.starts_with(key)) continue;
-        line.remove_prefix(key.size());
-        line.remove_prefix(std::min(line.find_first_not_of(blank), line.size()));
-        if (line.starts_with('=')) return true;
+        if (line.starts_with(key) && trimmed(line.substr(key.size())).starts_with('=')) return true;
     }
     return false;
 }

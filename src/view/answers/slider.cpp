@@ -1,5 +1,7 @@
 #include "view/answers/slider.h"
 
+#include "base/bisection.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -64,11 +66,7 @@ double edge(double value, double end, const std::function<bool(double)>& valid) 
         }
         good = between;
     }
-    for (int halved = 0; halved < halvings; ++halved) {
-        const double middle = 0.5 * (good + bad);
-        (valid(middle) ? good : bad) = middle;
-    }
-    return good;
+    return bisected(good, bad, halvings, valid).in;
 }
 
 }  // namespace

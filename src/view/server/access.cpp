@@ -1,5 +1,6 @@
 #include "view/server/access.h"
 
+#include "base/text.h"
 #include "base/whole_text.h"
 
 #include <fmt/format.h>
@@ -12,12 +13,6 @@ namespace lfdsim::view {
 namespace {
 
 using boost::asio::ip::address;
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? char(c + 'a' - 'A') : c; }
-
-bool same_name(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
-}
 
 std::optional<address> numeric(std::string_view name) {
     boost::system::error_code error;
@@ -69,19 +64,19 @@ bool Gate::lets_host(std::string_view host_header) const {
     const auto asked = split(host_header);
     if (!asked) return false;
     const auto number = numeric(asked->name);
-    if (same_name(asked->name, "localhost") || (number && number->is_loopback())) return true;
+    if (same_without_case(asked->name, "localhost") || (number && number->is_loopback())) return true;
     if (asked->port != port) return false;
     const auto own = numeric(host);
-    if (number ? number == own : same_name(asked->name, host)) return true;
+    if (number ? number == own : same_without_case(asked->name, host)) return true;
     if (!own || !own->is_unspecified()) return false;
     const std::string first = own_name.substr(0, own_name.find('.'));
-    return number || (!first.empty() && (same_name(asked->name, own_name) || same_name(asked->name, first) ||
-                                         same_name(asked->name, first + ".local")));
+    return number || (!first.empty() && (same_without_case(asked->name, own_name) || same_without_case(asked->name, first) ||
+                                         same_without_case(asked->name, first + ".local")));
 }
 
 bool same_origin(std::string_view origin, std::string_view host_header) {
     constexpr std::string_view scheme = "http://";
-    return origin.starts_with(scheme) && same_name(origin.substr(scheme.size()), host_header);
+    return origin.starts_with(scheme) && same_without_case(origin.substr(scheme.size()), host_header);
 }
 
 std::string_view token_of(std::string_view target) {

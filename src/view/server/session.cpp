@@ -1,6 +1,7 @@
 #include "view/server/session.h"
 
 #include "base/input_error.h"
+#include "base/json_utf8.h"
 #include "view/server/messages.h"
 
 #include <netinet/tcp.h>
@@ -26,9 +27,7 @@ constexpr int most_malformed = 100;
 constexpr int most_unsent_bytes = 128 << 10;
 constexpr std::size_t fragment_bytes = 64 << 10;  // of a long frame: pings and pongs can be sent between fragments
 
-std::string error_text(const std::string& what) {
-    return nlohmann::ordered_json{{"type", "error"}, {"what", what}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+std::string error_text(const std::string& what) { return json_utf8(nlohmann::ordered_json{{"type", "error"}, {"what", what}}); }
 
 }  // namespace
 

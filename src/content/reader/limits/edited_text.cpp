@@ -1,9 +1,9 @@
 #include "content/reader/limits/edited_text.h"
 
+#include "base/text.h"
 #include "base/whole_text.h"
 #include "content/reader/places.h"
 
-#include <strings.h>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -12,14 +12,7 @@
 namespace lfdsim::reader {
 namespace {
 
-// Returns the first line of a text, and removes it from the text; next_word() and next_number() do so with a line.
-std::string_view next_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    return line;
-}
-
+// Returns the first word of a line, and removes it from the line; next_number() does so with a number.
 std::string_view next_word(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
     const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
@@ -152,9 +145,8 @@ bool lower_keywords(std::string& text) {
     bool changed = false;
     const auto lower = [&](std::string_view word) {
         for (std::size_t i = std::size_t(word.data() - text.data()), end = i + word.size(); i < end; ++i) {
-            if (text[i] < 'A' || text[i] > 'Z') continue;
-            text[i] = char(text[i] - 'A' + 'a');
-            changed = true;
+            changed |= text[i] != lower_case(text[i]);
+            text[i] = lower_case(text[i]);
         }
     };
     std::string_view rest = text;
@@ -228,25 +220,19 @@ void note_face_colours(std::string_view text, std::string_view ending, NotShown&
 
 std::string readable_materials(std::string_view text, const std::string& name, std::map<std::string, Tiling>& tilings,
                                NotShown& not_shown) {
-    const auto is = [](std::string_view word, const char* key) {
-        return word.size() == std::strlen(key) && strncasecmp(word.data(), key, word.size()) == 0;
-    };
     std::string out, material;
     std::size_t number = 0;  // of the line
     while (!text.empty()) {
         const std::string_view line = next_line(text);
         std::string_view rest = line;
         const std::string_view key = next_word(rest);
-        if (is(key, "newmtl")) {
-            const std::size_t first = rest.find_first_not_of(" \t\r"), last = rest.find_last_not_of(" \t\r");
-            material = first == std::string_view::npos ? "" : rest.substr(first, last + 1 - first);
-        }
+        if (same_without_case(key, "newmtl")) material = trimmed(rest);
         ++number;
-        if (is(key, "Kd")) {
+        if (same_without_case(key, "Kd")) {
             out.append(key).append(three_numbers(rest, name + ", line " + std::to_string(number))) += '\n';
             continue;
         }
-        if (!is(key, "map_Kd")) {
+        if (!same_without_case(key, "map_Kd")) {
             out.append(line) += '\n';
             continue;
         }

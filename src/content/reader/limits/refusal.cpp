@@ -1,7 +1,7 @@
 #include "content/reader/limits/refusal.h"
 
-#include <algorithm>
-#include <cctype>
+#include "base/text.h"
+
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -14,9 +14,7 @@ namespace {
 /// Returns what is wrong with a binary STL file whose length does not agree with its number of triangles, and which Assimp
 /// therefore takes for text; nothing for other files.
 std::optional<std::string> wrong_length(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    if (ending != ".stl") return {};
+    if (lower_case(file.extension().string()) != ".stl") return {};
     std::ifstream stream(file, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
     constexpr std::size_t head = 84, triangle = 50;
