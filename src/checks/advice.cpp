@@ -62,10 +62,13 @@ void advise_on_lenses(Advised& a) {
     // Advice on the number of views is about the axis along which they are fewest.
     const bool strips = is_strips(d.array);
     const std::size_t few = strips || t.along[0].views <= t.along[1].views ? 0 : 1;
-    // Lens k begins k N pixels from the first: if N is not whole, the views of the last lens are shifted against those of the
-    // first by its distance from a whole number times the number of lenses.
+    // Lens k begins k N pixels from the first, and its elemental image k N' from that of the first, N' = p'/a: if neither N nor N'
+    // is whole, the views of the last lens are shifted against those of the first by that number's distance from a whole one times
+    // the number of lenses.
+    const auto images = [&](std::size_t k) { return t.along[k].elemental_pitch_mm / d.panel.pixel_pitch_mm; };
     const auto drift = [&](std::size_t k) {
-        return std::abs(t.along[k].views - std::round(t.along[k].views)) * g.lattice.count[k];
+        const auto from_whole = [](double n) { return std::abs(n - std::round(n)); };
+        return std::min(from_whole(t.along[k].views), from_whole(images(k))) * g.lattice.count[k];
     };
     const std::size_t drifts = strips || drift(0) >= drift(1) ? 0 : 1;
     if (t.along[few].views < (strips ? 1.9 : 2))  // a little less than two pixels of a barrier's two views are behind a slit
@@ -75,8 +78,11 @@ void advise_on_lenses(Advised& a) {
             t.along[few].views < 1 ? "smaller than a panel pixel" : "less than two panel pixels wide", lens_pitch_mm(g, few),
             d.panel.pixel_pitch_mm);
     else if (drift(drifts) > 0.5 && !strips)  // which lean so that their views are not whole numbers
-        a.say("a lens covers {:.4f} panel pixels, not a whole number: across the array this adds up to {:.2g} pixels",
-              t.along[drifts].views, drift(drifts));
+        a.say(
+            "a lens covers {:.4f} panel pixels, its elemental image {:.4f}, neither a whole number: across the array this adds up "
+            "to "
+            "{:.2g} pixels",
+            t.along[drifts].views, images(drifts), drift(drifts));
 }
 
 }  // namespace lfdsim

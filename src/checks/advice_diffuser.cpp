@@ -5,6 +5,7 @@
 #include "geometry/dark_bands.h"
 #include "geometry/resolve.h"
 #include "geometry/seen_width.h"
+#include "geometry/sharp_range.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,29 @@ bool joined_by_pupil(const Display& d, const Geometry& g, double eye) {
            3 * std::max(lens_pitch_mm(g, 0), lens_pitch_mm(g, 1));
 }
 
+/// Returns what a diffuser would do to what is shown: "mix views" that do not separate through it, "blur the content" to less than
+/// half of the resolution that lenses and pixels allow at its depth; nothing if it is harmless. `distance_mm`: from the vertex
+/// plane; `main`: the axis of its angles along which views lie side by side.
+std::optional<std::string> harm(const Advised& a, double distance_mm, const std::array<double, 2>& deg, std::size_t main) {
+    const Display& d = a.display;
+    const Geometry& g = a.geometry;
+    const double eye = camera_distance_mm(d), away = eye - g.rear_principal_mm;
+    const Profile profile = d.diffuser ? d.diffuser->profile : Profile::box;
+    if (seen_through_lens_mm(g, away) +
+            seen_by_diffuser_mm(g, away, profile, deg[main], distance_mm + g.vertex_plane_mm - g.rear_principal_mm) >
+        most_seen_share * a.theory.along[axis_of_eyes(g)].elemental_pitch_mm)
+        return "mix views";
+    const double z = g.content_depth_mm;
+    for (const std::size_t k : {0u, 1u}) {
+        const std::size_t axis = is_strips(d.array) ? 0 : k;
+        const double wide = 2 * std::abs(z - distance_mm) * std::tan(deg[k] * degree / 2);
+        const double finest = std::min(lens_limit_per_mm(d, g, a.theory, z, eye, axis), pixel_limit_per_mm(d, g, z));
+        // Modulation behind a box falls to one half at 0.603 cycles per width.
+        if ((!is_strips(d.array) || k == main) && 0.603 / wide < 0.5 * finest) return "blur the content";
+    }
+    return {};
+}
+
 /// "0.8 degrees" or, where the axes differ, "0.8 x 0.6 degrees"; four digits.
 std::string degrees_text(const std::array<double, 2>& deg) {
     return deg[0] == deg[1] ? fmt::format("{:.4g} degrees", deg[0]) : fmt::format("{:.4g} x {:.4g} degrees", deg[0], deg[1]);
@@ -70,15 +94,18 @@ void advise_on_diffuser(Advised& a) {
         height[k] = g.diffuser_z_mm.value_or(0) - aperture_plane_mm(d, g, axis);
         angle[k] = closing(height[k]);
     }
-    const std::string best = fmt::format("{0} {1:.5g} mm in front of the lenses (--set diffuser.distance_mm={1:.5g} {2})",
-                                         degrees_text(best_deg), best_distance, option_text(best_deg));
+    const std::optional<std::string> harmful = harm(a, best_distance, best_deg, main);
+    const std::string best =
+        harmful ? fmt::format("Use lenses that fill more of their cells: a diffuser that closes the gaps would {}", *harmful)
+                : fmt::format("{3} one of {0} {1:.5g} mm in front of the lenses (--set diffuser.distance_mm={1:.5g} {2})",
+                              degrees_text(best_deg), best_distance, option_text(best_deg), d.diffuser ? "Use" : "Add");
     const auto [across, up] = band_contrast(d, g);
     const bool bands = (strips ? across : std::max(across, up)) > visible_band_contrast;
     const std::string seen =
         strips ? fmt::format("dark bands between the lenses (Michelson contrast {:.2f} across the strips)", across)
                : fmt::format("dark bands between the lenses (Michelson contrast {:.2f} across, {:.2f} upwards)", across, up);
     if (bands && !d.diffuser && !joined_by_pupil(d, g, eye))
-        a.say("{}: the lenses do not fill their cells, and no diffuser closes the gaps. Add one of {}", seen, best);
+        a.say("{}: the lenses do not fill their cells, and no diffuser closes the gaps. {}", seen, best);
     if (!d.diffuser) return;
 
     // Strips have views across them only, so only the spread across them can be too strong.
@@ -91,16 +118,11 @@ void advise_on_diffuser(Advised& a) {
             return 2 * height[k] * std::tan(d.diffuser->angle_deg[k] * degree / 2) / joining[k];
         };
         const double distance = d.diffuser->distance_mm + height[main] * (1 / spread(main) - 1);  // where this diffuser joins them
-        // An angle with which views do not separate is no remedy.
-        const double away = camera_distance_mm(d) - g.rear_principal_mm;
-        const bool mixing = seen_through_lens_mm(g, away) + seen_by_diffuser_mm(g, away, d.diffuser->profile, angle[main],
-                                                                                *g.diffuser_z_mm - g.rear_principal_mm) >
-                            most_seen_share * a.theory.along[axis_of_eyes(g)].elemental_pitch_mm;
-        std::string remedy = too_near || mixing
-                                 ? "Use " + best
+        std::string remedy = too_near || harm(a, d.diffuser->distance_mm, angle, main)
+                                 ? best
                                  : fmt::format("At its distance use {} ({})", degrees_text(angle), option_text(angle));
         if ((strips || (joining[0] == joining[1] && wide == high)) && distance > g.top_z_mm - g.vertex_plane_mm &&
-            distance < eye / 2)
+            distance < eye / 2 && !harm(a, distance, d.diffuser->angle_deg, main))
             remedy += fmt::format(", or keep its angle at a distance of {0:.5g} mm (--set diffuser.distance_mm={0:.5g})", distance);
         const std::string spreads =
             strips ? fmt::format("{:.3g} lens pitches along the panel's {}; 1", spread(main), main == 0 ? "rows" : "columns")

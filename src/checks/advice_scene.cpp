@@ -15,18 +15,6 @@ namespace {
 
 constexpr double nearest_focus_mm = 100;  // of young eyes
 
-/// Says if the front or the centre of the scene reaches the eye or lies behind it. Returns whether it does; other advice on the
-/// scene then means nothing.
-bool advise_behind_eye(Advised& a, double eye) {
-    const double z = a.geometry.content_depth_mm, front = z + (a.model_half_size_mm ? (*a.model_half_size_mm)[2] : 0);
-    if (front < eye) return false;
-    a.say(
-        "the scene{}, {:.5g} mm in front of the lenses, is behind the eye, which is {:.5g} mm in front of them. Move it nearer "
-        "to the lenses (--set content.depth_mm={:.5g}), or make it smaller (--set content.height_mm)",
-        z < eye ? "'s front" : "", z < eye ? front : z, eye, std::min(z, eye) / 4);
-    return true;
-}
-
 /// Returns a better depth for the scene: a quarter of the way to the eye; for a near-eye display 1.5 m behind the lenses, or the
 /// depth nearest to that, in 1/z, within the depth of field by the pixel, but far enough for the eye to focus on.
 double better_depth_mm(const Advised& a, double eye) {
@@ -34,6 +22,18 @@ double better_depth_mm(const Advised& a, double eye) {
     const double sharp = std::clamp(-1 / 1500., a.theory.depth_far_per_mm, a.theory.depth_near_per_mm);
     const double depth = sharp < 0 ? 1 / sharp + a.geometry.rear_principal_mm - a.geometry.vertex_plane_mm : -1500;
     return std::min(depth, eye - 1.2 * nearest_focus_mm);
+}
+
+/// Says if the front or the centre of the scene reaches the eye or lies behind it. Returns whether it does; other advice on the
+/// scene then means nothing.
+bool advise_behind_eye(Advised& a, double eye) {
+    const double z = a.geometry.content_depth_mm, half = a.model_half_size_mm ? (*a.model_half_size_mm)[2] : 0;
+    if (z + half < eye) return false;
+    a.say(
+        "the scene{}, {:.5g} mm in front of the lenses, is behind the eye, which is {:.5g} mm in front of them. Move it away from "
+        "the eye (--set content.depth_mm={:.5g}), or make it smaller (--set content.height_mm)",
+        z < eye ? "'s front" : "", z < eye ? z + half : z, eye, std::min(better_depth_mm(a, eye), eye / 2 - half));
+    return true;
 }
 
 /// Says if the scene is nearer to the eye than eyes can focus, as it is by default for a near-eye display (at the lenses).

@@ -152,10 +152,28 @@ double aperture_plane_mm(const Display& d, const Geometry& g, std::size_t axis) 
 }
 
 std::array<double, 2> joining_spread_mm(const Geometry& g) {
+    // Waves of the frequency k/p along an axis at the angle alpha to the display's nearest one have k cos(alpha)/p along that: a
+    // box of the width p/cos(alpha) leaves none of them.
     const Lattice<double>& l = g.lattice;
-    if (!l.strips) return {l.pitch[0], l.pitch[1]};
-    const double c = std::abs(l.cos_turn), s = std::abs(l.sin_turn);
-    return c >= s ? std::array{l.pitch[0] / c, 0.} : std::array{0., l.pitch[0] / s};
+    const double c = std::abs(l.cos_turn), s = std::abs(l.sin_turn), across = l.pitch[0] / std::max(c, s),
+                 up = l.strips ? 0 : l.pitch[1] / std::max(c, s);
+    std::array<double, 2> spread = c >= s ? std::array{across, up} : std::array{up, across};
+    if (!l.staggered || std::min(c, s) < 1e-9) return spread;
+    // Staggered rows have the waves (m/px, n/2py), m + n even. Where they are rotated, no box leaves none of the longest: it is
+    // made wider or narrower so that the strongest that is left is as weak as possible.
+    const auto left = [&](double scale) {
+        double most = 0;
+        for (const auto& [m, n] : {std::array{1., 1.}, {1., -1.}, {0., 2.}, {2., 0.}}) {
+            const double x = m / l.pitch[0], y = n / (2 * l.pitch[1]);
+            most = std::max(most, std::abs(sinc(scale * spread[0] * (x * l.cos_turn - y * l.sin_turn)) *
+                                           sinc(scale * spread[1] * (x * l.sin_turn + y * l.cos_turn))));
+        }
+        return most;
+    };
+    double best = 1;
+    for (double scale = 0.7; scale < 1.5; scale += 0.01)
+        if (left(scale) < left(best)) best = scale;
+    return {best * spread[0], best * spread[1]};
 }
 
 double gap_closing_angle_deg(double pitch_mm, double height_mm) { return 2 * std::atan(pitch_mm / (2 * height_mm)) / degree; }

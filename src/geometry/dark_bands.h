@@ -20,9 +20,9 @@ double aperture_plane_mm(const Display&, const Geometry&, std::size_t axis);
 /// `height_mm` above that plane: 2 atan(p / 2 height). Lines of sight are then spread over exactly one lens pitch.
 double gap_closing_angle_deg(double pitch_mm, double height_mm);
 
-/// Returns the spread of lines of sight in that plane, mm along the display's x and y, that leaves no band: from lens to lens and
-/// from row to row; for strips from one to the next along the panel's rows, or along its columns if that is shorter, and 0 along
-/// the other. Exact for boxes and arrays that are not rotated.
+/// Returns the spread of lines of sight in that plane, mm along the display's x and y, that leaves no band along the array's x' and
+/// y': from lens to lens along the one of these that is nearest to the display's axis. Of strips it is 0 along the other axis.
+/// Exact for boxes.
 std::array<double, 2> joining_spread_mm(const Geometry&);
 
 /// Returns the Michelson contrast, along the array's x' and y', of the light of a white panel across one lens pitch (of the row

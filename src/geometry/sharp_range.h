@@ -45,10 +45,11 @@ SharpRange sharp_by_lens(const Geometry&, const Theory&, double eye_mm);
 /// to infinity and from 90 mm in front of the lenses to the viewer"; "no depth up to the viewer" for none.
 std::string depths_in_words(const Geometry&, const SharpRange&, double eye_mm);
 
-/// Returns the limit of resolution by the lens pitch at a depth z, cycles per mm in that plane: half a cycle per lens pitch,
-/// projected from the eye, E/(2 p (E - z)), E its distance from the vertex plane; `eye_mm` is that from the panel.
-/// `axis`: 0 along x', 1 along y'; hexagons and strips have one pitch.
-double lens_limit_per_mm(const Geometry&, double depth_mm, double eye_mm, std::size_t axis);
+/// Returns the limit of resolution by the lens pitch at a depth z, cycles per mm in that plane (docs/measures.md, "Resolution").
+/// Each lens shows a piece of the plane, and from lens to lens the picture jumps by p |1 - z/L|: half a cycle per jump, infinite at
+/// L. A lens through which an eye sees less than a pixel, D g |1/E - 1/L| < a, shows one point: half a cycle per lens pitch,
+/// projected from the eye, E/(2 p (E - z)). `eye_mm`: from the panel along its normal; `axis`: 0 along x', 1 along y'.
+double lens_limit_per_mm(const Display&, const Geometry&, const Theory&, double depth_mm, double eye_mm, std::size_t axis);
 /// Returns the limit of resolution by the panel pixels at a depth, cycles per mm: half a cycle per image of a pixel, g/(2 a |z|).
 double pixel_limit_per_mm(const Display&, const Geometry&, double depth_mm);
 

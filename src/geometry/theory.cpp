@@ -56,9 +56,10 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     t.viewing_zone_parallel_deg = zone_deg(0);
     t.viewing_zone_deg = zone_deg(gap / made_for);
     t.lens_sampling_limit_per_mm = 1 / (2 * p);
-    t.gap_closing_diffuser_deg = gap_closing_angle_deg(p, std::abs(L));
+    const double joining = p / std::max(std::abs(g.lattice.cos_turn), std::abs(g.lattice.sin_turn));  // joining_spread_mm()
+    t.gap_closing_diffuser_deg = gap_closing_angle_deg(joining, std::abs(L));
     t.gap_closing_here_deg =
-        g.diffuser_z_mm ? gap_closing_angle_deg(p, *g.diffuser_z_mm - aperture_plane_mm(d, g, axis)) : std::nan("");
+        g.diffuser_z_mm ? gap_closing_angle_deg(joining, *g.diffuser_z_mm - aperture_plane_mm(d, g, axis)) : std::nan("");
     return t;
 }
 

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "checks/advice.h"
+#include "checks/first_order.h"
+#include "geometry/dark_bands.h"
 #include "lenses.h"
 
 namespace lfdsim {
@@ -16,6 +18,7 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::vector<std::string> advice_for(const Display& d, const std::optional<Vec3d>& half_size = std::nullopt) {
     const Geometry g = resolve(d);
@@ -89,9 +92,83 @@ TEST(Advice, AnAngleThatMixesViewsIsNoRemedyForDarkBands) {
     d.diffuser = Diffuser{5, {6, 3}, Profile::box};
     d.camera.position_mm = {30, 10, 420};
     d.content.viewing_distance_mm = 420;
-    EXPECT_THAT(advice_for(d), ElementsAre(AllOf(HasSubstr("dark bands"), HasSubstr("Use 2.864 degrees 22 mm in front"))));
+    EXPECT_THAT(advice_for(d), ElementsAre(AllOf(HasSubstr("dark bands"), HasSubstr("Use one of 2.864 degrees 22 mm in front"))));
     d.diffuser = Diffuser{22, {2.864, 2.864}, Profile::box};
     EXPECT_THAT(advice_for(d), IsEmpty());
+}
+
+// The diffuser's axes are the display's: the spread that joins lenses along axes at 45 degrees to them is sqrt(2) as wide.
+TEST(Advice, ADiffuserClosesTheGapsOfRotatedArrays) {
+    for (const LatticeKind lattice : {LatticeKind::square, LatticeKind::rectangle, LatticeKind::brick, LatticeKind::hexagon})
+        for (const double turn : {0., 10., 45., 80., 90., 160.}) {
+            Display d;
+            d.panel.pixels = {900, 540};
+            d.panel.pixel_pitch_mm = 0.1;
+            d.lens.kind = IdealLens{0.45, 3};
+            d.array.lattice = lattice;
+            d.array.pitch_mm = lattice == LatticeKind::rectangle || lattice == LatticeKind::brick ? Pitch(1.5, 1.1) : Pitch(1.5);
+            d.array.rotation_deg = turn;
+            d.array.gap_mm = 3;
+            d.array.aperture = Aperture::circle;
+            d.camera.position_mm = {0, 0, 600};
+            d.content.viewing_distance_mm = 600;
+            const Geometry g = resolve(d);
+            const std::array<double, 2> joining = joining_spread_mm(g);
+            d.diffuser = Diffuser{30, {}, Profile::box};
+            for (const std::size_t k : {0u, 1u}) d.diffuser->angle_deg[k] = gap_closing_angle_deg(joining[k], 30);
+            EXPECT_THAT(advice_for(d), Not(Contains(HasSubstr("dark bands")))) << int(lattice) << " " << turn;
+            const std::array<double, 2> contrast = band_contrast(d, resolve(d));
+            if (!is_staggered(d.array)) {
+                EXPECT_LT(std::max(contrast[0], contrast[1]), 0.01) << int(lattice) << " " << turn;
+            }
+        }
+}
+
+// Before near eyes a diffuser that joins the lenses would blur what is shown far away.
+TEST(Advice, ADiffuserThatBlursTheContentIsNoRemedyForDarkBands) {
+    Display d = first_order({1.3, {2000, 2000}, 15, 60, {}, LensType::plano_convex}).display;
+    EXPECT_THAT(advice_for(d),
+                Contains(AllOf(HasSubstr("dark bands"), HasSubstr("would blur the content"), Not(HasSubstr("--set")))));
+    d.content.depth_mm = 0;
+    EXPECT_THAT(advice_for(d), Not(Contains(HasSubstr("would blur the content"))));
+}
+
+// Lenses whose elemental images, at p' = p (1 + g/E), cover a whole number of pixels are as good as lenses that do.
+TEST(Advice, WholePixelsUnderALensOrUnderItsElementalImage) {
+    Display d;
+    d.panel.pixels = {3840, 2160};
+    d.panel.pixel_pitch_mm = 0.2;
+    d.lens.kind = IdealLens{{}, 2};
+    d.array.gap_mm = 2;
+    d.array.aperture = Aperture::cell;
+    d.camera.position_mm = {0, 0, 702};
+    d.content.viewing_distance_mm = 702;
+    const auto warned = Contains(HasSubstr("neither a whole number"));
+    d.array.pitch_mm = Pitch(2);
+    EXPECT_THAT(advice_for(d), Not(warned));
+    d.array.pitch_mm = Pitch(2 / (1 + 2. / 700));
+    EXPECT_THAT(advice_for(d), Not(warned));
+    d.array.pitch_mm = Pitch(1.998);
+    EXPECT_THAT(advice_for(d), warned);
+}
+
+// What moves a scene away from the eye ends the advice.
+TEST(Advice, ASceneBehindTheEyeIsMovedAwayFromIt) {
+    for (const double eye : {60., 400.})
+        for (const double depth : {-20., 0., 0.9 * eye, 2 * eye}) {
+            Display d = first_order({5, {1200, 800}, 30, eye, {}, LensType::ideal}).display;
+            d.content.depth_mm = depth;
+            const Geometry g = resolve(d);
+            const Vec3d half{50, 50, 85};
+            std::string told;
+            for (const std::string& text : advice(d, g, theory(d, g), half))
+                if (text.find("is behind the eye") != text.npos) told = text;
+            ASSERT_EQ(told.empty(), depth + 85 < eye - g.vertex_plane_mm) << eye << " " << depth;
+            if (told.empty()) continue;
+            const std::string key = "content.depth_mm=";
+            d.content.depth_mm = std::stod(told.substr(told.find(key) + key.size()));
+            EXPECT_LT(*d.content.depth_mm + 85, eye - g.vertex_plane_mm) << told;
+        }
 }
 
 TEST(Advice, NoneForReadyDisplays) {

@@ -1,5 +1,5 @@
 // What check traces of a display: the width that an eye sees through a lens, and the waves of colours on a white screen.
-#include "analysis/core/quick_look.h"
+#include "analysis/verdicts/quick_look.h"
 
 #include <gtest/gtest.h>
 

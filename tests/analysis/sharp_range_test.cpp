@@ -7,6 +7,7 @@
 #include "lenses.h"
 
 #include <gtest/gtest.h>
+#include <complex>
 #include <random>
 
 namespace lfdsim {
@@ -68,7 +69,7 @@ TEST(SharpRange, OfRectanglesIsSharpAlongBothAxes) {
                 add_spot_depths(Subject(turned, {}, {}), of_turned);
                 for (const char* side : {"behind_mm", "in_front_mm"})
                     EXPECT_EQ(of_one.figures["by_lens"][side], of_turned.figures["by_lens"][side]) << brick << filled << pitch[0];
-                for (const std::size_t k : {0u, 1u}) EXPECT_NEAR(lens_limit_per_mm(g, 0, 600, k), 0.5 / pitch[k], 1e-12);
+                for (const std::size_t k : {0u, 1u}) EXPECT_NEAR(t.along[k].lens_sampling_limit_per_mm, 0.5 / pitch[k], 1e-12);
             }
 }
 
@@ -113,6 +114,51 @@ TEST(SharpRange, WordsNameNothingBehindTheViewer) {
     EXPECT_EQ(words(700, 2677), "no depth up to the viewer");
     EXPECT_EQ(depths_in_words(g, range_of_inverse(g, 0.02, -0.01, 600), 600),
               "from 100 mm behind the lenses to infinity and from 50 mm in front of the lenses to the viewer");
+}
+
+// Waves in a plane at the depth z, as an eye on the axis sees them through thin lenses: point by point, the line of sight through a
+// lens meets the panel where the nodal line to the shown point begins. Below the limit the wave itself is stronger than its first
+// alias of the lattice, above it the alias is.
+TEST(SharpRange, TheLimitOfTheLensesIsWhereAliasesBecomeStronger) {
+    std::mt19937 random(9);
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    int by_pieces = 0, by_points = 0;
+    for (int n = 0; n < 400; ++n) {
+        const double pitch = between(0.3, 8), gap = pitch * between(0.8, 2.5), L = (n % 2 ? 1 : -1) * gap * between(3, 100);
+        Display d = ideal(pitch, gap, 1 / (1 / gap + 1 / L), int(between(2, 90)));
+        d.array.aperture = Aperture::circle;
+        const double D = between(0.3, 1) * pitch;
+        d.lens.as<IdealLens>().aperture_radius_mm = 0.5 * D;
+        const Geometry g = resolve(d);
+        const Theory t = theory(d, g);
+        const double eye = 600 - g.vertex_plane_mm, z = between(-400, 200);
+        // Through the lens at X, x beside its axis, the eye sees the panel where its image at L is met.
+        const double pixels = D * gap * std::abs(1 / eye - 1 / L) / d.panel.pixel_pitch_mm;
+        const bool points = pixels < 1;
+        const double limit = lens_limit_per_mm(d, g, t, z, 600, 0);
+        if (!(limit < 100 / pitch)) continue;  // near L there is none
+        ++(points ? by_points : by_pieces);
+        const auto shown = [&](double X, double x) {
+            const double at_image = (X + (points ? 0 : x)) * (1 - L / eye);
+            return X + (at_image - X) * z / L;
+        };
+        for (const double share : {0.93, 1.07}) {
+            const double f = share * limit, seen = f * (1 - z / eye);  // cycles per mm in the plane, and at the lenses
+            const auto strength = [&](double at_lenses) {
+                std::complex<double> sum = 0;
+                for (int lens = 0; lens < 8; ++lens)
+                    for (int k = 0; k < 64; ++k) {
+                        const double X = pitch * lens, x = D * ((k + 0.5) / 64 - 0.5);
+                        sum += std::polar(1., 2 * pi * (f * shown(X, x) - at_lenses * (X + x)));
+                    }
+                return std::abs(sum);
+            };
+            const double alias = std::max(strength(seen - 1 / pitch), strength(seen + 1 / pitch));
+            EXPECT_EQ(strength(seen) > alias, share < 1) << n << " z " << z << " L " << L << " pixels " << pixels;
+        }
+    }
+    EXPECT_GT(by_points, 20);
+    EXPECT_GT(by_pieces, 100);
 }
 
 TEST(SharpRange, CyclesPerDegreeAreThoseOfTheAngleAtTheEye) {

@@ -1,6 +1,6 @@
 // What tracing says of displays that cannot do what they are meant for: right figures, and silence on good ones.
-#include "analysis/core/verdicts.h"
-#include "analysis/core/quick_look.h"
+#include "analysis/verdicts/verdicts.h"
+#include "analysis/verdicts/quick_look.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -76,11 +76,12 @@ TEST(Verdicts, ViewsThatDoNotSeparate) {
     const Display d = sheet_on_tablet();
     EXPECT_THAT(verdicts_of(d),
                 ElementsAre(AllOf(HasSubstr("views do not separate"), HasSubstr("0.474 of the 0.51 mm"),
-                                  HasSubstr("focal length of 1.515 mm"), HasSubstr("lens.sphere_radius_mm = 0.8486"))));
-    // What it proposes mends it.
+                                  HasSubstr("focal length of 1.489 mm"), HasSubstr("lens.sphere_radius_mm = 0.833695"))));
+    // What it proposes mends it: the walls begin on the sheet, so that the gap changes with the radius.
     Display focused = d;
-    focused.lens.as<PlanoConvex>().sphere_radius_mm = 0.8486;
+    focused.lens.as<PlanoConvex>().sphere_radius_mm = 0.833695;
     EXPECT_THAT(verdicts_of(focused), Not(Contains(HasSubstr("views do not separate"))));
+    EXPECT_NEAR(resolve(focused).focal_length_mm, resolve(focused).gap_mm, 1e-5);
 
     // No radius is proposed that is smaller than the aperture's.
     Display wide = analysis_example::display(40, 100);

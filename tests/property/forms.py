@@ -210,13 +210,23 @@ class Forms:
             forms = {name: sure(sharpness.mtf50, lines, spread, eye, m["depth_mm"], axis, greatest) for name, spread in named.items()}
             forms = {name: UNSURE if form and form != UNSURE and not form[1] <= LOOSE * form[0] else form for name, form in forms.items()}
             out |= {f"{path}.mtf50_per_mm.{name}": form for name, form in forms.items()}
-            lens = (eye[2] - d.vertex_plane) / (2 * d.cell.width[axis] * (eye[2] - d.vertex_plane - m["depth_mm"]))
+            lens = self.lens_limit(m["depth_mm"], eye[2], axis)
             pixel = d.gap / (2 * step * max(abs(z), 1e-300))
             out[f"{path}.resolution_per_mm"] = least(forms["luminance" if self.coloured else "green"], min(lens, pixel))
             if self.coloured and forms["luminance"] != UNSURE:
                 for name in ("red", "blue"):
                     out[f"{path}.colour.from_green_mm.{name}"] = *sharpness.from_green(named[name], named["green"], axis), step * abs(z) / d.gap
         return out
+
+    def lens_limit(self, depth, eye, axis):
+        """Cycles per mm at a depth from the vertices: half a cycle per jump p |1 - z/L| from lens to lens; where the eye sees less than a pixel through
+        a lens, per projected pitch."""
+        d, p = self.display, self.display.cell.width[axis]
+        dioptres, z, away = 1 / d.paraxial.f - 1 / d.gap, depth + d.vertex_plane - d.paraxial.rear, eye - d.vertex_plane
+        seen = d.clear_aperture[axis] * d.gap * abs(1 / (eye - d.paraxial.rear) - dioptres)
+        if d.lens.type == "pinhole" or seen < d.panel.pixel_pitch_mm:
+            return away / (2 * p * (away - depth))
+        return 1 / max(2 * p * abs(1 - z * dioptres), 1e-300)
 
     def spot(self, result):
         d, out = self.display, {}

@@ -223,6 +223,11 @@ Result measure_fov(Subject& subject, Job& job) {
                         "by geometry: "
                         "the scene is not its own mirror image, and different parts of it are compared on either side.",
                         aside));
+    if (const double exact = along[0].fov_exact_deg; std::abs(exact / along[0].fov_elemental_deg - 1) > 0.02)
+        result.remarks.push_back(fmt::format(
+            "Theory is paraxial. By Snell's law the layers on the panel bend the steep rays so that an elemental image is "
+            "seen over {:.4g} degrees, not {:.4g}.",
+            exact, along[0].fov_elemental_deg));
     if (depth != described)
         result.remarks.push_back(
             fmt::format("The scene is at {:.4g} mm here: at {:.4g} mm, as described, it would not be seen against the screen from "

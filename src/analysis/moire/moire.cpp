@@ -71,7 +71,7 @@ constexpr WaveFigure wave_figures[] = {
     {"contrast", &WaveEstimates::seen, "contrast to the eye", "",
      "Michelson contrast times the contrast sensitivity relative to its maximum (Mannos and Sakrison 1974)"},
     {"contrast_unfiltered", &WaveEstimates::contrast, "contrast before the eye", "",
-     "theory: for lenses without aberrations; aberrations blur the pixels"}};
+     "theory: for lenses without aberrations, with which a wave can be weaker or stronger"}};
 
 /// Adds a wave's figures for scripts, under a path that ends with a dot.
 void add_wave(Result& result, const std::string& path, const WaveEstimates& wave, bool with_errors, const std::string& missing) {

@@ -107,7 +107,7 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
     const Geometry& g = s.geometry();
     const double eye = camera_distance_mm(s.display());
     const std::size_t coarser = lens_pitch_mm(g, 1) > lens_pitch_mm(g, 0) ? 1 : 0;
-    const auto by_lens = [&](double z) { return lens_limit_per_mm(g, z, eye, coarser); };
+    const auto by_lens = [&](double z) { return lens_limit_per_mm(s.display(), g, s.theory(), z, eye, coarser); };
     const auto by_pixel = [&](double z) { return pixel_limit_per_mm(s.display(), g, z); };
     DataTable table =
         DataTable::of_rows("dof_resolution", {"depth_mm", "lens_per_mm", "pixel_per_mm", "lens_per_degree", "pixel_per_degree"});
@@ -116,15 +116,19 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
         table.add_row({z, lens, pixel, cycles_per_degree(g, lens, z, eye), cycles_per_degree(g, pixel, z, eye)});
     }
     Plot plot{"dof_resolution", "Finest detail by theory", "depth in front of the lenses, mm", "cycles per degree", {}};
-    std::vector<double> pixel = table.columns[4].values;
-    const double most = 4 * std::ranges::max(table.columns[3].values);
-    for (double& x : pixel)
-        if (!(x <= most)) x = nan;  // near the lenses it is unbounded
-    plot.series = {{"of the lens pitch", depths, table.columns[3].values}, {"of the panel's pixels", depths, std::move(pixel)}};
+    const double at_lenses = s.theory(int(coarser)).lens_sampling_limit_per_mm;
+    const double at_lenses_per_degree = cycles_per_degree(g, at_lenses, 0, eye);
+    const auto bounded = [&](std::vector<double> limit) {  // that of the pixels has no bound at the lenses, that of the lenses at L
+        for (double& x : limit)
+            if (!(x <= 4 * at_lenses_per_degree)) x = nan;
+        return limit;
+    };
+    plot.series = {{"of the lens pitch", depths, bounded(table.columns[3].values)},
+                   {"of the panel's pixels", depths, bounded(table.columns[4].values)}};
     const double z = g.content_depth_mm, at_content = std::min(by_lens(z), by_pixel(z));
     const FigureValue per_degree = cycles_per_degree(g, at_content, z, eye);
-    result.add("resolution.at_the_lenses_per_mm", by_lens(0));
-    result.add("resolution.at_the_lenses_per_degree", cycles_per_degree(g, by_lens(0), 0, eye));
+    result.add("resolution.at_the_lenses_per_mm", at_lenses);
+    result.add("resolution.at_the_lenses_per_degree", at_lenses_per_degree);
     result.add("resolution.at_the_content_per_mm", at_content);
     result.add("resolution.at_the_content_per_degree", per_degree);
     result.add_line({}, {.label = "Resolution at the content's depth: limit of lenses and pixels",

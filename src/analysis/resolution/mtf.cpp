@@ -214,10 +214,11 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
         const auto at =
             std::find_if(all.begin(), all.end(), [&](const MtfCurves& m) { return m.depth_mm == z && m.angle_deg == 0; });
         const Resolution r = resolution(s, *at);
-        lens.values.push_back(r.lens_limit_per_mm);
-        pixel.values.push_back(std::isfinite(r.pixel_limit_per_mm) ? r.pixel_limit_per_mm : nan);
+        const auto finite = [](double limit) { return std::isfinite(limit) ? limit : nan; };
+        lens.values.push_back(finite(r.lens_limit_per_mm));
+        pixel.values.push_back(finite(r.pixel_limit_per_mm));
     }
-    plot.series.push_back({"lens sampling, 1/2p", depths, lens.values});
+    plot.series.push_back({"lens sampling", depths, lens.values});
     plot.series.push_back({"pixel limit, g/2az", depths, pixel.values});
     const double middle = s.theory().central_depth_mm + s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
     if (middle >= depths.front() && middle <= depths.back()) plot.marks.push_back({"central depth plane", middle});

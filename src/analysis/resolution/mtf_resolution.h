@@ -8,7 +8,7 @@ namespace lfdsim {
 
 /// The resolution in a plane and its limits, cycles per mm there.
 struct Resolution {
-    double lens_limit_per_mm;   // half a cycle per lens pitch, projected by the eye into the plane
+    double lens_limit_per_mm;   // half a cycle per jump from lens to lens; infinite in the central depth plane
     double pixel_limit_per_mm;  // half a cycle per image of a panel pixel; infinite in the lenses' own plane
     Estimate per_mm;            // NaN: it is undefined, and `missing` says why
     const char* limited_by;     // "mtf50", "lens sampling" or "pixel image"; empty if it is undefined

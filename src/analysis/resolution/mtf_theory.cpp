@@ -4,6 +4,7 @@
 #include "analysis/crosstalk/slope_spread.h"
 #include "base/constants.h"
 #include "base/sinc.h"
+#include "geometry/sharp_range.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +40,8 @@ double pixel_image_mm(const Display& d, const Geometry& g, double z_mm) {
 }
 
 double lens_limit_per_mm(const Subject& s, const Direction& direction, double z_mm, double angle_deg) {
-    return s.theory(direction.axis).lens_sampling_limit_per_mm /
-           scale_to_plane(s.geometry(), z_mm, {angle_deg, s.viewing_distance_mm()});
+    return lfdsim::lens_limit_per_mm(s.display(), s.geometry(), s.theory(), z_mm - s.geometry().vertex_plane_mm,
+                                     s.viewing_distance_mm() * std::cos(angle_deg * degree), std::size_t(direction.axis));
 }
 
 double pixel_limit_per_mm(const Subject& s, const Direction& direction, double z_mm) {

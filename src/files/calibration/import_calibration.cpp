@@ -225,7 +225,8 @@ class CalibrationImport {
         if (count < 1 + fewest_lenses) note("Only {:.0f} lenses cover the panel.", count - 1);
     }
 
-    // Places the camera, an eye at the distance D' that sees the whole panel, and the content, spheres in the plane of the vertices.
+    // Places the camera, an eye at the distance D' that sees the whole panel, and the content, spheres in the plane of the
+    // vertices.
     void place_camera_and_content() {
         const double W = double(c.pixels[0]), H = double(c.pixels[1]), longest = std::max(W, H);
         d.camera.position_mm = {0, 0, distance_mm};

@@ -1,6 +1,6 @@
 #include "report/folder/check.h"
 
-#include "analysis/core/verdicts.h"
+#include "analysis/verdicts/verdicts.h"
 #include "checks/advice.h"
 #include "content/content.h"
 #include "files/lenses/glasses.h"

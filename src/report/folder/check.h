@@ -10,7 +10,7 @@
 
 namespace lfdsim {
 
-/// Returns sentences on the faults of a display, the worst first: verdicts by tracing (analysis/core/verdicts.h), then advice
+/// Returns sentences on the faults of a display, the worst first: verdicts by tracing (analysis/verdicts/verdicts.h), then advice
 /// (checks/advice.h), which takes the model's size into account where it is given.
 std::vector<std::string> verdicts_and_advice(const Display&, const Geometry&, const Theory&,
                                              const std::optional<Vec3d>& model_half_size_mm = std::nullopt);

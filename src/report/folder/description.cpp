@@ -142,8 +142,8 @@ std::vector<Figure> sharpness(const Display& d, const Geometry& g, const Theory&
     const SharpRange by_lens = sharp_by_lens(g, t, eye), by_pixel = sharp_by_pixel(g, t, eye);
     std::vector<double> at_lenses, at_content;  // along x', and along y' where that differs
     for (std::size_t axis = 0; axis < (differs_by_axis(d.array) ? 2 : 1); ++axis) {
-        at_lenses.push_back(before ? cycles_per_degree(g, lens_limit_per_mm(g, 0, eye, axis), 0, eye) : nan);
-        const double finest = std::min(lens_limit_per_mm(g, z, eye, axis), pixel_limit_per_mm(d, g, z));
+        at_lenses.push_back(before ? cycles_per_degree(g, t.along[axis].lens_sampling_limit_per_mm, 0, eye) : nan);
+        const double finest = std::min(lens_limit_per_mm(d, g, t, z, eye, axis), pixel_limit_per_mm(d, g, z));
         at_content.push_back(before && eye - g.vertex_plane_mm > z ? cycles_per_degree(g, finest, z, eye) : nan);
     }
     return {

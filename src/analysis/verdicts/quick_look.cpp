@@ -1,4 +1,4 @@
-#include "analysis/core/quick_look.h"
+#include "analysis/verdicts/quick_look.h"
 
 #include "analysis/core/eye_rays.h"
 #include "analysis/crosstalk/intended_light.h"

@@ -1,7 +1,7 @@
 // Properties of a display that some thousand rays show within milliseconds: how much of the panel one eye sees at once, how sharp
 // a lens is, which colours a white screen shows. Floor 3.
 //
-// They decide the verdicts of analysis/core/verdicts.h. docs/model.md, "Advice".
+// They decide the verdicts of analysis/verdicts/verdicts.h. docs/model.md, "Advice".
 #pragma once
 #include "analysis/moire/moire_theory.h"
 #include "analysis/spots/spot_depth.h"

@@ -1,12 +1,10 @@
-#include "analysis/core/verdicts.h"
+#include "analysis/verdicts/verdicts.h"
 
-#include "analysis/core/quick_look.h"
-#include "analysis/crosstalk/intended_panel.h"
+#include "analysis/verdicts/quick_look.h"
+#include "analysis/verdicts/verdict_parts.h"
 #include "base/bisection.h"
 #include "base/constants.h"
 #include "checks/first_order.h"
-#include "content/pickup/shown_points.h"
-#include "geometry/dark_bands.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/resolve.h"
 #include "geometry/seen_width.h"
@@ -24,24 +22,12 @@ constexpr double most_mixed_percent = 50;  // between the eyes: a third of the l
 // Between the eyes, and how much of it at least is due to a fault that can be mended: aberration, or errors of assembly
 constexpr double most_mended_percent = 15, most_more_percent = 10;
 constexpr double most_blur_pixels = 1.5;
-// Share of the panel's light whose pixels have their centres on borders of elemental images
-constexpr double most_on_borders = 0.1;
-constexpr double most_visible_contrast = 0.05;  // of colours, after the eye's filter
-
-/// Returns a number as text: three digits, without an exponent.
-std::string digits(double x) { return std::abs(x) < 1000 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x); }
 
 /// Returns a depth, mm from the lenses, as text: "12 mm in front of the lenses", or "at infinity".
 std::string place(double z) {
     return std::isinf(z) ? "at infinity"
                          : fmt::format("{} mm {} the lenses", digits(std::abs(z)), z < 0 ? "behind" : "in front of");
 }
-
-double share_on_borders(const Display& d, const Geometry& g) { return MeantPanel(d, g, d.content.sampling).share_on_borders(); }
-
-bool valid(const Display& d) { return validate(d).empty(); }
-
-bool is_stripes(SubpixelLayout layout) { return layout == SubpixelLayout::rgb_stripe || layout == SubpixelLayout::bgr_stripe; }
 
 /// The radius of a stop, and the light that it leaves.
 struct Stop {
@@ -54,7 +40,7 @@ template <class Good>
 std::optional<Stop> widest_stop(Display d, const Geometry& g, Good good) {
     const auto holds = [&](double radius) {
         d.lens.stop_radius_mm = radius;
-        return valid(d) && good(d, radius);
+        return is_valid(d) && good(d, radius);
     };
     const double all = 0.5 * widest_aperture_mm(g);
     if (!holds(0.2 * all)) return {};
@@ -102,26 +88,34 @@ std::string stop_remedy(const Display& d, const std::optional<Stop>& stop) {
 std::string focus_remedy(Display d, const Geometry& g, const Theory& t, double most_mm) {
     const double away = camera_distance_mm(d) - g.rear_principal_mm;
     const bool to_eye = g.clear_aperture_mm[axis_of_eyes(g)] * g.gap_mm / away > most_mm;
-    const double focal = to_eye ? 1 / (1 / g.gap_mm + 1 / away) : g.gap_mm;
+    const auto wanted = [&](const Geometry& of) { return to_eye ? 1 / (1 / of.gap_mm + 1 / away) : of.gap_mm; };
+    double focal = wanted(g);
+    Display other = d;
+    auto* const ball = g.focal_length_mm > 0 ? std::get_if<PlanoConvex>(&other.lens.kind) : nullptr;
+    if (ball) {
+        // f is proportional to the radius; the gap, where it follows from array.base_z_mm, changes with it, but less.
+        for (int step = 0; step < 30 && is_valid(other); ++step) {
+            const Geometry now = resolve(other);
+            focal = wanted(now);
+            ball->sphere_radius_mm = to_nanometre(ball->sphere_radius_mm * focal / now.focal_length_mm);
+        }
+    }
     std::string remedy = fmt::format(
         "They are focused {} (focal length {:.4g} mm, gap {:.4g} mm), not {}. Lenses of a focal length of {:.4g} mm{} would be "
         "focused {}",
         place(t.central_depth_mm), g.focal_length_mm, g.gap_mm, to_eye ? "at the eye" : "on the panel", focal,
         to_eye ? "" : ", the gap,", to_eye ? "there" : "on the panel");
-    const double stronger = focal / g.focal_length_mm;
     std::string too_strong;
-    Display other = d;
-    if (auto* ball = std::get_if<PlanoConvex>(&other.lens.kind); ball && stronger > 0) {
-        const double radius = ball->sphere_radius_mm = to_nanometre(ball->sphere_radius_mm * stronger);
-        if (valid(other)) remedy += fmt::format(": with this glass a radius of {0} mm (lens.sphere_radius_mm = {0})", radius);
-        if (!valid(other))
-            too_strong = fmt::format(". Such a focal length takes a radius of {} mm, too small for these lenses", radius);
-    }
+    if (ball && is_valid(other))
+        remedy += fmt::format(": with this glass a radius of {0} mm (lens.sphere_radius_mm = {0})", ball->sphere_radius_mm);
+    else if (ball)
+        too_strong =
+            fmt::format(". Such a focal length takes a radius of {} mm, too small for these lenses", ball->sphere_radius_mm);
     if (d.lens.type() == LensType::ideal) remedy += fmt::format(" (--set lens.focal_length_mm={:.4g})", focal);
     const char* const only = d.array.base_z_mm ? "array.base_z_mm=none " : "";  // either key, not both
     d.array.base_z_mm.reset();
     d.array.gap_mm = g.focal_length_mm;
-    if (!to_eye && g.focal_length_mm > 0 && !g.glued && valid(d))
+    if (!to_eye && g.focal_length_mm > 0 && !g.glued && is_valid(d))
         remedy += fmt::format(", as would these at a gap of {0:.4g} mm (--set {1}array.gap_mm={0:.4g})", g.focal_length_mm, only);
     return remedy + too_strong;
 }
@@ -199,7 +193,8 @@ std::string percent_text(double percent) {
 /// Returns the text on errors of assembly that mix what two eyes should see; nothing if they are not the cause.
 std::optional<std::string> on_errors(const Display& d, const TracedAndTheory& mixed, const std::string& eyes) {
     const auto mended = [&](const Display& changed) -> std::optional<double> {
-        const std::optional<TracedAndTheory> left = valid(changed) ? between_eyes_percent(changed, resolve(changed)) : std::nullopt;
+        const std::optional<TracedAndTheory> left =
+            is_valid(changed) ? between_eyes_percent(changed, resolve(changed)) : std::nullopt;
         if (!left || mixed.traced - left->traced <= most_more_percent) return {};
         return left->traced;
     };
@@ -231,7 +226,7 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
     if (!mixed || !(mixed->traced > most_mended_percent)) return {};
     const auto [traced, in_theory] = *mixed;
     if (std::optional<std::string> errors = on_errors(d, *mixed, eyes)) return errors;
-    if (by_aberration(*mixed))
+    if (by_aberration(*mixed) && in_theory <= most_mixed_percent)
         return fmt::format(
             "the lenses' aberration mixes what {} should see: crosstalk is {}, and {} in theory without aberration. {}", eyes,
             percent_text(traced), percent_text(in_theory), stop_remedy(d, stop_against_mixing(d, g)));
@@ -240,11 +235,18 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
     // In the middle of the halves of a viewing zone an eye is farthest from what is intended for the other one.
     if (zone < 2 * apart) return fmt::format("{}the viewing zone is {}", fault, best);
     // What an eye sees of the panel at once, in whole pixels, projected through the lens to the eye's distance
-    const double wide = (seen.width_mm.traced + d.panel.pixel_pitch_mm) / g.gap_mm * (eye - g.rear_principal_mm);
+    const double to_eye = (eye - g.rear_principal_mm) / g.gap_mm, pixel = d.panel.pixel_pitch_mm * to_eye,
+                 wide = seen.width_mm.traced * to_eye + pixel;
+    const double nearer = g.rear_principal_mm + (eye - g.rear_principal_mm) * apart / wide;  // there it spreads less
+    const std::string remedy = pixel < 0.8 * apart ? fmt::format("lenses and a diffuser that spread light by {:.2g} of the rest",
+                                                                 (apart - pixel) / (wide - pixel))
+                                                   : "smaller pixels, or a larger gap";
     return fmt::format(
-        "{}each lens spreads what one eye should see over {} mm there. Views would separate from {} mm on, or with lenses and a "
-        "diffuser that spread light by {:.2g} of that",
-        fault, digits(wide), digits(eye * apart / wide), apart / wide);
+        "{}each lens spreads what one eye should see over {} mm there, {} mm of which are the width of a pixel. Views would "
+        "separate {}"
+        "with {}",
+        fault, digits(wide), digits(pixel), nearer >= nearest_sight_mm ? fmt::format("nearer than {} mm, or ", digits(nearer)) : "",
+        remedy);
 }
 
 /// Judges whether the lenses are nearly as sharp as without aberration.
@@ -273,106 +275,6 @@ std::optional<std::string> on_blur(const Display& d, const Geometry& g, const Th
         "light {}, where the image of a pixel is {}: {}; without aberration {}. {}",
         place(L), wide(b->full_pixels), wide(b->pixels), wide(1), sharp,
         in_words(sharp_by_pixel(g, t, eye), "would be", "would be"), stop_remedy(d, stop_against_blur(d, g)));
-}
-
-/// Returns the remedy that mixes the colours, found by trial: colours along the strips, slanted strips, a diffuser.
-std::string mixing_remedy(const Display& d, const Geometry& g, const Theory& t, const ColourWave& wave) {
-    const auto helps = [](const Display& changed) {
-        if (!valid(changed)) return false;
-        const std::optional<ColourWave> left = colour_wave(changed, resolve(changed));
-        return !left || left->visible < most_visible_contrast;
-    };
-    if (is_strips(d.array) && is_stripes(d.panel.subpixels)) {
-        Display turned = d;
-        turned.panel.subpixels = SubpixelLayout::rgb_rows;
-        if (helps(turned))
-            return "A panel whose colours follow each other along the strips shows none (--set 'panel.subpixels=\"rgb_rows\"')";
-    }
-    if (is_strips(d.array) && t.along[0].views > 2.5)  // the two views of upright strips would mix under slanted ones
-        for (const double share : {1 / 6., 1 / 3.}) {
-            Display leaning = d;
-            leaning.array.slant_deg = std::atan(share) / degree;
-            if (helps(leaning)) return fmt::format("Slant the strips (--set array.slant_deg={:.4g})", *leaning.array.slant_deg);
-        }
-    // A diffuser must take no more than a quarter of the field of view along either axis (of strips along both of that across
-    // them), or it mixes views as well, and must make no dark bands in place of coloured ones. It is tried at its present distance
-    // and near the lenses, with angles that move the wave by 1, 1.5 and 2 periods.
-    const double near = 0.5 * std::min(lens_pitch_mm(g, 0), lens_pitch_mm(g, 1));
-    const bool strips = g.lattice.strips, on_side = std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn);
-    const auto most = [&](std::size_t k) { return 0.25 * t.along[strips ? 0 : on_side ? 1 - k : k].fov_deg; };
-    const auto bands = [](const Display& of) {
-        const auto [across, up] = band_contrast(of, resolve(of));
-        return std::isnan(up) ? across : std::max(across, up);
-    };
-    const double most_bands = std::max(visible_band_contrast, bands(d));
-    for (const double distance : {d.diffuser ? d.diffuser->distance_mm : near, near})
-        for (const double periods : {1., 1.5, 2.}) {
-            Display diffused = d;
-            diffused.diffuser = d.diffuser.value_or(Diffuser{});
-            diffused.diffuser->distance_mm = distance;
-            std::array<double, 2>& angle = diffused.diffuser->angle_deg;
-            for (const std::size_t k : {0u, 1u})
-                if (const double per_degree = std::abs(wave.turned_per_degree[k]); per_degree > 1e-3)
-                    angle[k] = std::max(angle[k], std::min(periods / per_degree, most(k)));
-            if (helps(diffused) && !(bands(diffused) > most_bands))
-                return fmt::format(
-                    "A diffuser of {0:.3g} x {1:.3g} degrees {2:.3g} mm in front of the lenses mixes them (--set "
-                    "diffuser.distance_mm={2:.3g} 'diffuser.angle_deg=[{0:.3g}, {1:.3g}]')",
-                    angle[0], angle[1], distance);
-        }
-    return "Use smaller pixels, or lenses and a gap through which an eye sees more of the panel at once";
-}
-
-/// Returns the remedy that keeps pixels' centres clear of borders, found by trial: the array moved by a part of a pixel, or a
-/// panel with a column or row more.
-std::string border_remedy(const Display& d) {
-    const auto helps = [](const Display& changed) {
-        return valid(changed) && share_on_borders(changed, resolve(changed)) < most_on_borders;
-    };
-    std::string remedy;
-    const double half = 0.5 * d.panel.pixel_pitch_mm;
-    for (const auto [x, y] : {std::array{half, 0.}, {0., half}, {half, half}, {0.5 * half, 0.}, {0.5 * half, 0.5 * half}}) {
-        Display moved = d;
-        moved.array.offset_mm[0] += x;
-        moved.array.offset_mm[1] += y;
-        if (!helps(moved)) continue;
-        remedy = fmt::format("Move the array by a part of a pixel (--set 'array.offset_mm=[{:.6g}, {:.6g}]')",
-                             moved.array.offset_mm[0], moved.array.offset_mm[1]);
-        break;
-    }
-    for (const auto [columns, rows] : {std::array{1, 0}, {0, 1}, {1, 1}}) {
-        Display larger = d;
-        larger.panel.pixels[0] += columns;
-        larger.panel.pixels[1] += rows;
-        if (!helps(larger)) continue;
-        remedy += fmt::format("{} a panel of {} x {} pixels (--set 'panel.pixels=[{}, {}]')", remedy.empty() ? "Use" : ", or use",
-                              larger.panel.pixels[0], larger.panel.pixels[1], larger.panel.pixels[0], larger.panel.pixels[1]);
-        break;
-    }
-    return remedy.empty() ? "Move the array (array.offset_mm), or use another pitch (array.pitch_mm)" : remedy;
-}
-
-/// Judges whether it is clear to which lens each pixel belongs.
-std::optional<std::string> on_borders(const Display& d, const Geometry& g) {
-    const double share = share_on_borders(d, g);
-    if (!(share >= most_on_borders)) return {};
-    return fmt::format(
-        "the centres of {:.0f} % of the {} lie on the border of two lenses' elemental images: both lenses show half of each, and "
-        "rounding decides to which lens, and so to which eye, its content is assigned. {}",
-        100 * share, made_by_channel(d) ? "subpixels" : "pixels", border_remedy(d));
-}
-
-/// Judges whether a white screen is white.
-std::optional<std::string> on_colours(const Display& d, const Geometry& g, const Theory& t) {
-    const std::optional<ColourWave> wave = colour_wave(d, g);
-    if (!wave || !(wave->visible > most_visible_contrast)) return {};
-    const std::string seen = std::isinf(wave->period_mm) ? "has one tint, which changes as the eye moves"
-                                                         : fmt::format("has coloured bands {} mm wide, {:.2g} per degree",
-                                                                       digits(wave->period_mm), wave->cycles_per_degree);
-    return fmt::format(
-        "the lenses show the panel's red, green and blue apart: a white screen {} (red or blue against luminance: contrast "
-        "{:.2f}). {}",
-        seen, wave->contrast, mixing_remedy(d, g, t, *wave));
 }
 
 }  // namespace
