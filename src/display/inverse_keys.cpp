@@ -9,7 +9,7 @@ constexpr Key<Inverse> inverse_keys[] = {
     {"eyes_mm", &Inverse::eyes_mm, Range{-longest_mm, infinity}, false,
      "Opposite corners of the box that contains the eyes, [[x, y, z], [x, y, z]]; two more corners for a second box. z = inf: the "
      "camera's distance.",
-     "the zone in which at most 1 % of the rays are wrong, at the viewing distance"},
+     "the zone in which at most 1 % of the rays are wrong, at the viewing distance; up and down at most 20 mm of it"},
     {"levels", &Inverse::levels, Range{0, 1}, false,
      "Light of the content's black and white, relative to a white panel. A raised black level leaves a margin in which crosstalk "
      "can be subtracted."},
@@ -28,14 +28,14 @@ constexpr Key<Inverse> inverse_keys[] = {
      "Width of an element of a view, in the plane of the content's middle.",
      "half the smaller of the lens pitch and the image of a pixel, with subpixels at least six pixel pitches; at least one arc "
      "minute"},
-    {"prior", &Inverse::prior, Range{0, 1000}, false, "Weight that pulls the fit towards traced content.",
+    {"prior", &Inverse::prior, Range{0, 1000}, false, "Weight that pulls the fit towards traced or integrated content.",
      "0.001, or 0.3 where there are too few rays"},
     {"weighting", &Inverse::weighting, no_range, false,
      "Errors are weighted as code values, about as eyes see them, or as linear light."},
     {"iterations", &Inverse::iterations, Range{1, 1000}, false,
      "Maximum number of steps; the fit ends earlier when held-out eyes no longer improve."},
     {"start", &Inverse::start, no_range, false, "Panel picture at which the fit starts, such as that of the previous frame.",
-     "traced content"},
+     "traced or integrated content, whichever is better for held-out eyes"},
     {"memory_mb", &Inverse::memory_mb, Range{1, 1e9}, false, "Memory for stored rays; others are traced again in each step.",
      "half of the free memory"},
 };

@@ -142,10 +142,10 @@ double FittedViews::half_gradient(const PanelVector& x, PanelVector& half) {
     return value;
 }
 
-std::vector<double> FittedViews::light_in(std::size_t first, std::size_t step, std::size_t end, std::size_t size) const {
+std::vector<double> FittedViews::light_in(std::size_t first, std::size_t end, std::size_t size) const {
     std::vector<double> light(size, 0);
     for (const Strip& strip : strips_) {
-        if (strip.view < first || strip.view >= end || (strip.view - first) % step != 0) continue;
+        if (strip.view < first || strip.view >= end || (strip.view - first) % 2 != 0) continue;
         for_strip(strip, [&](std::size_t, std::span<const PanelRay> row) {
             for (const PanelRay& ray : row) {
                 if (!pixels_) light[ray.place] += double(ray.share);
@@ -154,6 +154,17 @@ std::vector<double> FittedViews::light_in(std::size_t first, std::size_t step, s
         });
     }
     return light;
+}
+
+double FittedViews::crosstalk(std::size_t in_boxes, std::size_t size) const {
+    const std::vector<double> light[2] = {light_in(0, in_boxes, size), light_in(1, in_boxes, size)};
+    double signal[2] = {}, leak[2] = {};
+    for (std::size_t j = 0; j < size; ++j) {
+        const std::size_t owner = light[1][j] > light[0][j] ? 1 : 0;
+        signal[owner] += light[owner][j];
+        leak[1 - owner] += light[1 - owner][j];
+    }
+    return 0.5 * (leak[0] / signal[0] + leak[1] / signal[1]);
 }
 
 Image FittedViews::seen(std::size_t k, const PanelVector& x) const {
@@ -210,6 +221,16 @@ Nearness FittedViews::nearness(std::size_t k, const PanelVector& x) const {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     return {count > 0 ? -10 * std::log10(std::max(squares / count, 1e-12)) : nan,
             3 * between > most_between * count ? nan : ssim(image, view.content, std::span(&region, 1))[0]};
+}
+
+Nearness FittedViews::nearness(const PanelVector& x, std::size_t count, std::size_t step) const {
+    double psnr = 0, psnr_eyes = 0, similarity = 0, similarity_eyes = 0;
+    for (std::size_t k = 0; k < count; k += step) {
+        const Nearness one = nearness(k, x);  // NaN where too few elements see the screen
+        if (!std::isnan(one.psnr_db)) psnr += one.psnr_db, ++psnr_eyes;
+        if (!std::isnan(one.ssim)) similarity += one.ssim, ++similarity_eyes;
+    }
+    return {psnr / psnr_eyes, similarity / similarity_eyes};  // 0/0 is NaN
 }
 
 std::int64_t FittedViews::rays() const {

@@ -48,14 +48,17 @@ class FittedViews {
     /// Computes half = M'VU(M x - t), half the gradient, and returns half the sum of squares. Sums are integers, so that the order
     /// in which threads add does not matter. bound() comes first.
     double half_gradient(const PanelVector& x, PanelVector& half);
-    /// Returns the light of each number of a white panel in the views from `first` on, each `step`-th before `end`, summed over
-    /// their elements that count.
-    std::vector<double> light_in(std::size_t first, std::size_t step, std::size_t end, std::size_t size) const;
+    /// Returns leak over signal of two boxes' eyes, whose views take turns in the first `in_boxes` ones, if each subpixel shows the
+    /// picture of those that get most of its light: the mean of both boxes' ratios. `size`: of the panel's light.
+    double crosstalk(std::size_t in_boxes, std::size_t size) const;
     /// Returns what view k sees of a panel, in the content's light.
     Image seen(std::size_t k, const PanelVector& x) const;
     /// Returns how near that comes to the content, over the elements of view k that count. SSIM takes those in between as right; it
     /// is NaN where they are more than a quarter.
     Nearness nearness(std::size_t k, const PanelVector& x) const;
+    /// Returns the mean over each `step`-th of the first `count` views that can be compared; NaN if there are none.
+    Nearness nearness(const PanelVector& x, std::size_t count, std::size_t step) const;
+    Nearness nearness(const PanelVector& x) const { return nearness(x, views_.size(), 1); }
 
     /// Returns the number of rays of all elements of all views.
     std::int64_t rays() const;
@@ -68,6 +71,9 @@ class FittedViews {
     };
     template <class Do>
     void for_strip(const Strip&, const Do&) const;
+    /// Returns the light of each number of a white panel in the views from `first` on, each second before `end`, summed over their
+    /// elements that count.
+    std::vector<double> light_in(std::size_t first, std::size_t end, std::size_t size) const;
     template <bool pixels>
     double add_products(const Strip&, const PanelVector& x, bool of_target, std::vector<std::int64_t>* sums, double& largest) const;
     /// Returns half the sum of squares of M x - t, or of M x unless `of_target`. Adds M'VU of that to `sums`, unless null, and

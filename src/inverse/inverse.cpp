@@ -4,6 +4,7 @@
 #include "base/on_threads.h"
 #include "base/seconds.h"
 #include "content/pictures/field_picture.h"
+#include "display/keys.h"
 #include "engine/devices/memory.h"
 #include "engine/render.h"
 #include "geometry/lens_misalignment.h"
@@ -18,7 +19,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 
 namespace lfdsim {
 namespace {
@@ -46,34 +49,10 @@ Image image_of(const PanelVector& x, const Display& d) {
     return image;
 }
 
-/// Returns the mean over each step-th of the first `count` views; NaN if none can be compared.
-Nearness mean_nearness(const FittedViews& views, const PanelVector& x, std::size_t count, std::size_t step = 1) {
-    double psnr = 0, psnr_eyes = 0, similarity = 0, similarity_eyes = 0;
-    for (std::size_t k = 0; k < count; k += step) {
-        const Nearness one = views.nearness(k, x);  // NaN where too few elements see the screen
-        if (!std::isnan(one.psnr_db)) psnr += one.psnr_db, ++psnr_eyes;
-        if (!std::isnan(one.ssim)) similarity += one.ssim, ++similarity_eyes;
-    }
-    return {psnr / psnr_eyes, similarity / similarity_eyes};  // 0/0 is NaN
-}
-
-/// Returns leak over signal of two boxes' eyes, whose views take turns, if each subpixel shows the picture of those that get most
-/// of its light: the mean of both boxes' ratios (InverseReport::crosstalk).
-double crosstalk_of(const FittedViews& views, std::size_t in_boxes, std::size_t size) {
-    const std::vector<double> light[2] = {views.light_in(0, 2, in_boxes, size), views.light_in(1, 2, in_boxes, size)};
-    double signal[2] = {}, leak[2] = {};
-    for (std::size_t j = 0; j < size; ++j) {
-        const std::size_t owner = light[1][j] > light[0][j] ? 1 : 0;
-        signal[owner] += light[owner][j];
-        leak[1 - owner] += light[1 - owner][j];
-    }
-    return 0.5 * (leak[0] / signal[0] + leak[1] / signal[1]);
-}
-
-/// Returns the picture that a fit begins with: content.inverse.start, or traced content. Throws InputError for another size.
-PanelVector start_of(const Request& request, const PanelVector& traced) {
+/// Returns the picture that a fit begins with: content.inverse.start, or the prior's centre. Throws InputError for another size.
+PanelVector start_of(const Request& request, const PanelVector& centre) {
     const std::string& file = request.keys().start;
-    if (file.empty()) return traced;
+    if (file.empty()) return centre;
     const Image image = read_image(file, request.display.panel.encoding);
     if (image.width != request.display.panel.pixels[0] || image.height != request.display.panel.pixels[1])
         throw InputError("content.inverse.start",
@@ -82,16 +61,30 @@ PanelVector start_of(const Request& request, const PanelVector& traced) {
     return vector_of(image);
 }
 
-/// Returns the centre x0 of the prior: traced content at the levels B and W; without it M'VU t / bound, the mean of what the eyes
-/// should see of each pixel.
-PanelVector centre_of(FittedViews& views, const std::optional<Picture>& traced, const Exposure& exposure,
-                      const PanelVector& bound) {
-    PanelVector centre(bound.size(), float(exposure.black));
-    if (traced) {
-        centre = vector_of(traced->image);
-        for (float& x : centre) x = float(exposure.black + (exposure.white - exposure.black) * double(x));
-        return centre;
+/// Content that needs no fit: traced and integrated; none for given pictures.
+using SimpleContent = std::vector<Image>;
+
+/// Returns the centre x0 of the prior. It is the simple content, at the levels B and W, that is better for held-out eyes, traced
+/// content if there are none; its kind and its figures are written to the report.
+PanelVector centre_of(const SimpleContent& simple, const Exposure& exposure, const FittedViews& held_out, InverseReport& report) {
+    PanelVector centre;
+    Nearness* const told[] = {&report.held_out_traced, &report.held_out_integrated};
+    constexpr PickupKind kinds[] = {PickupKind::traced, PickupKind::integrated};
+    for (std::size_t k = 0; k < simple.size(); ++k) {
+        PanelVector x = vector_of(simple[k]);
+        for (float& light : x) light = float(exposure.black + (exposure.white - exposure.black) * double(light));
+        *told[k] = held_out.nearness(x);
+        if (k > 0 && !(told[k]->psnr_db > told[0]->psnr_db)) continue;
+        centre = std::move(x);
+        report.held_out = *told[k];
+        report.result = kinds[k];
     }
+    return centre;
+}
+
+/// Returns the centre where there is no simple content: M'VU t / bound, the mean of what the eyes should see of each pixel.
+PanelVector mean_of_eyes(FittedViews& views, const Exposure& exposure, const PanelVector& bound) {
+    PanelVector centre(bound.size(), float(exposure.black));
     PanelVector half;
     views.half_gradient(PanelVector(bound.size(), 0), half);
     for (std::size_t j = 0; j < bound.size(); ++j)
@@ -114,7 +107,7 @@ struct Solved {
 };
 
 /// Takes steps from `start`, and returns the one that is best for held-out eyes, `start` included; without such eyes the last one.
-/// Ends early where held-out eyes no longer gain. Writes the report's figures of held-out eyes, of `centre` as traced content.
+/// Ends early where held-out eyes no longer gain. Writes the report's figure of held-out eyes.
 Solved solve(const Request& request, FittedViews& views, const PanelVector& bound, const FittedViews* held_out,
              const PanelVector& start, const PanelVector& centre, InverseReport& report) {
     // The prior is relative to the mean of the bound, d_mean. A pixel has four numbers, three of which are unknowns.
@@ -125,10 +118,7 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     report.unseen_percent = 100 * (1 - met / (double(bound.size()) * 0.75));
     BoxSolver solver(start, centre, bound, report.prior * mean / met);
     Solved best{start};
-    if (held_out) {
-        report.held_out_traced = mean_nearness(*held_out, centre, held_out->views().size());
-        report.held_out = mean_nearness(*held_out, start, held_out->views().size());
-    }
+    if (held_out) report.held_out = held_out->nearness(start);
     PanelVector gradient;
     double waited_from = report.held_out.psnr_db;
     int waited = 0;
@@ -149,7 +139,7 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
             best.x = solver.x();
             continue;
         }
-        const Nearness now = mean_nearness(*held_out, solver.x(), held_out->views().size());
+        const Nearness now = held_out->nearness(solver.x());
         if (now.psnr_db > report.held_out.psnr_db) {
             best.x = solver.x();
             report.held_out = now;
@@ -163,44 +153,18 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
     return best;
 }
 
-/// Returns the bytes of the unknowns: seven arrays of them, and integers of twice the size.
-double unknowns_bytes(const Display& d) { return 10 * texel_bytes(d); }
-
-/// Throws InputError if there is no memory for the unknowns and a panel picture; before the first array of the panel's size is
-/// made.
-void require_memory_for_panel(const Display& d) {
-    require_memory("panel.pixels", "the inverse pick-up, with its arrays of the panel's size,",
-                   unknowns_bytes(d) + picture_bytes(d.panel.pixels[0], d.panel.pixels[1]));
-}
-
-/// Returns the bytes of rays that may be kept: content.inverse.memory_mb, or half of what is free beside the unknowns. Throws
-/// InputError if there is no room for one view.
-double memory_for_rays(const Request& request, const Display& seen) {
-    const Inverse& keys = request.keys();
-    const double unknowns = unknowns_bytes(request.display);
-    const double view =
-        double(seen.camera.resolution[0]) * double(seen.camera.resolution[1]) * double(*seen.render.samples) * sizeof(PanelRay);
-    const double bytes = keys.memory_mb ? *keys.memory_mb * 1e6 : std::max(free_bytes() - unknowns, 0.) / 2;
-    if (bytes < view)
-        throw InputError("content.inverse.memory_mb",
-                         fmt::format("{:.0f} MB is less than the rays of one view take; give {:.0f} or more", bytes / 1e6,
-                                     std::ceil(view / 1e6)));
-    if (keys.memory_mb) require_memory("content.inverse.memory_mb", "rays that are kept", bytes);
-    return bytes;
-}
-
-/// Fits the eyes' views, and compares the result at held-out eyes. `traced`: the picture to which the fit is pulled and with which
-/// it begins, if there is one; it is the result, not complete, if the job is cancelled before the first step.
+/// Fits the eyes' views, and compares the result at held-out eyes. The fit is pulled to and begins with the best of the simple
+/// content; traced content is the result, not complete, if the job is cancelled before the first step.
 InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<const Eye> held_out_eyes, const EyeCounts& counts,
-                  std::int64_t rays, const std::optional<Picture>& traced, InverseReport report) {
+                  std::int64_t rays, SimpleContent simple, InverseReport report) {
     const auto start = std::chrono::steady_clock::now();
     Job& job = request.job;
     const Inverse& keys = request.keys();
     const auto stopped = [&] {
-        InvertedPanel none{
-            traced.value_or(Picture{Image(int(request.display.panel.pixels[0]), int(request.display.panel.pixels[1]))}), report};
-        none.picture.complete = false;
-        return none;
+        return InvertedPanel{{simple.empty() ? Image(int(request.display.panel.pixels[0]), int(request.display.panel.pixels[1]))
+                                             : std::move(simple.front()),
+                              false},
+                             report};
     };
     // The views: what each eye should see and sees of a white panel, G, and the elements that count
     const double bytes = memory_for_rays(request, display_of(request, request.display, request.geometry, eyes.front(), rays));
@@ -215,9 +179,12 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     const Exposure exposure{keys.levels[0], keys.levels[1], gain_of(request, *views)};
     expect_light(*views, exposure.gain);
     expect_light(*others, exposure.gain);
-    if (const std::string colours = keys.start.empty() ? "" : other_colours(keys.start, request.display.panel.encoding);
-        !colours.empty())
-        report.warnings.push_back(fmt::format("{}: {}", keys.start, colours));
+    if (!keys.start.empty()) {
+        if (const std::string colours = other_colours(keys.start, request.display.panel.encoding); !colours.empty())
+            report.warnings.push_back(fmt::format("{}: {}", keys.start, colours));
+        if (read_metadata(keys.start).contains(incomplete_mark))
+            report.warnings.push_back(fmt::format("{}: is marked incomplete: the run that made it was interrupted", keys.start));
+    }
     if (is_black(*views)) report.warnings.push_back("the content is black from these eyes: there is nothing to fit");
     const bool pixels = entries_are_pixels(request.display), codes = keys.weighting == ErrorOf::eye;
     FittedViews fitted(std::move(*views), pixels, codes, exposure, job), held_out(std::move(*others), pixels, codes, exposure, job);
@@ -233,19 +200,23 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     const std::size_t size = std::size_t(request.display.panel.pixels[0]) * std::size_t(request.display.panel.pixels[1]) * 4;
     const PanelVector bound = fitted.bound(size);
     if (job.cancelled()) return stopped();
-    if (request.boxes.size() == 2) report.crosstalk = crosstalk_of(fitted, std::size_t(report.places), size);
-    const PanelVector centre = centre_of(fitted, traced, exposure, bound);
-    const bool scored = !held_out_eyes.empty() && !std::isnan(mean_nearness(held_out, centre, held_out_eyes.size()).psnr_db);
+    if (request.boxes.size() == 2) report.crosstalk = fitted.crosstalk(std::size_t(report.places), size);
+    const PanelVector centre =
+        simple.empty() ? mean_of_eyes(fitted, exposure, bound) : centre_of(simple, exposure, held_out, report);
+    simple.clear();
+    const bool scored = !held_out_eyes.empty() && !std::isnan(report.held_out.psnr_db);
+    const Nearness of_simple = report.held_out;
+    const PickupKind kind = std::exchange(report.result, PickupKind::inverse);
     if (!held_out_eyes.empty() && !scored)
         report.warnings.push_back("held-out eyes see too little of the screen to be compared: the last step's panel is written");
-    // The steps. Where traced content is better for held-out eyes, it is the result.
+    // The steps. Where simple content is better for held-out eyes, it is the result.
     Solved solved = solve(request, fitted, bound, scored ? &held_out : nullptr, start_of(request, centre), centre, report);
-    if (scored && !(report.held_out.psnr_db > report.held_out_traced.psnr_db)) {
+    if (scored && !(report.held_out.psnr_db > of_simple.psnr_db)) {
         solved.x = centre;
-        report.held_out = report.held_out_traced;
-        report.traced = !solved.stopped || report.iterations > 0;
+        report.held_out = of_simple;
+        report.result = kind;
     }
-    report.fitted = mean_nearness(fitted, solved.x, std::size_t(report.places), std::size_t(report.places + 7) / 8);
+    report.fitted = fitted.nearness(solved.x, std::size_t(report.places), std::size_t(report.places + 7) / 8);
     report.seconds = seconds_since(start);
     InvertedPanel made{{image_of(solved.x, request.display), !solved.stopped, report.rays, 0, report.seconds}, {}};
     double black = 0, full = 0;
@@ -279,20 +250,26 @@ struct Meant {
         : errors_unknown(knows_no_errors(d)),
           display(errors_unknown ? without_errors(d) : d),
           geometry(errors_unknown ? resolve(display) : g) {}
-    Display by_traced() const {
-        Display traced = display;
-        traced.content.pickup = PickupKind::traced;
-        return traced;
+    Display by(PickupKind pickup) const {
+        Display other = display;
+        other.content.pickup = pickup;
+        return other;
     }
 };
 
-/// Plans eyes and rays, fits them, and adds warnings to the report. `traced`: traced content, which the fit is compared with.
-InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Picture& traced) {
-    if (!traced.complete) return {traced, {}};
+/// Plans eyes and rays, fits them, and adds warnings to the report. `content_by` returns the content by another pick-up, which the
+/// fit is compared with.
+InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const std::function<Picture(PickupKind)>& content_by) {
+    SimpleContent simple;
+    for (const PickupKind pickup : {PickupKind::traced, PickupKind::integrated}) {
+        Picture made = content_by(pickup);
+        simple.push_back(std::move(made.image));
+        if (!made.complete) return {{std::move(simple.front()), false}, {}};
+    }
     return on_threads(request.threads, [&] {
         const Inverse& keys = request.keys();
         const Plan p = plan(request);
-        if (request.job.cancelled()) return InvertedPanel{{traced.image, false}, {}};
+        if (request.job.cancelled()) return InvertedPanel{{std::move(simple.front()), false}, {}};
         InverseReport report = planned(request, p.in_boxes, p.rays, p.counts);
         report.rim_places = std::int64_t(p.eyes.size()) - p.in_boxes;
         if (const double views = views_within(request.boxes, request.display, request.geometry);
@@ -302,11 +279,12 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const Pictu
         if (errors_unknown) report.warnings.emplace_back(warning_of_errors);
         // Held-out eyes continue the places in the boxes, with numbers, and so with shifts and rays, that no other eye has.
         const std::vector<Eye> held_out = eyes_at(places_within(request.boxes, p.in_boxes, keys.held_out), 2'000'000);
-        InvertedPanel made = fit(request, p.eyes, held_out, p.counts, p.rays, traced, std::move(report));
-        if (made.report.traced)
-            made.report.warnings.push_back(
-                "traced content is better for eyes that were not fitted, and is written: there are too few places or "
-                "rays, or the display cannot show more");
+        InvertedPanel made = fit(request, p.eyes, held_out, p.counts, p.rays, std::move(simple), std::move(report));
+        if (made.report.result != PickupKind::inverse && made.report.iterations > 0)
+            made.report.warnings.push_back(fmt::format(
+                "{} content is better for eyes that were not fitted, and is written: there are too few places or rays, or the "
+                "display cannot show more",
+                words<PickupKind>()[std::size_t(made.report.result)]));
         return made;
     });
 }
@@ -325,7 +303,8 @@ InvertedPanel invert(const Display& display, const Geometry& geometry, const Con
                           {boxes.begin(), boxes.end()},
                           threads,
                           job};
-    return fit_boxes(request, made.errors_unknown, elemental_images(made.by_traced(), made.geometry, scene, threads, job));
+    return fit_boxes(request, made.errors_unknown,
+                     [&](PickupKind pickup) { return elemental_images(made.by(pickup), made.geometry, scene, threads, job); });
 }
 
 InvertedPanel invert(const Display& display, const Geometry& geometry, const LightField& field, std::span<const EyeBox> boxes,
@@ -342,8 +321,22 @@ InvertedPanel invert(const Display& display, const Geometry& geometry, const Lig
                           {boxes.begin(), boxes.end()},
                           threads,
                           job};
-    InvertedPanel panel =
-        fit_boxes(request, made.errors_unknown, elemental_images(made.by_traced(), made.geometry, field, threads, job).picture);
+    const auto require_views = [&] {
+        if (rays.all > 0 && rays.unseen == rays.all)
+            throw InputError("content.inverse.eyes_mm",
+                             "all rays from these eyes pass beside the views' cameras; give eyes that the cameras surround "
+                             "(--eyes-mm), or more views");
+    };
+    InvertedPanel panel;
+    try {
+        panel = fit_boxes(request, made.errors_unknown, [&](PickupKind pickup) {
+            return elemental_images(made.by(pickup), made.geometry, field, threads, job).picture;
+        });
+    } catch (const InputError&) {
+        require_views();  // without any there is nothing that the display could show
+        throw;
+    }
+    require_views();
     if (const double share = double(rays.unseen) / double(std::max<std::int64_t>(rays.all, 1)); share > 0.01)
         panel.report.warnings.push_back(
             fmt::format("{:.0f} % of the rays from these eyes pass beside the views' cameras and do not count: give "

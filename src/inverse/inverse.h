@@ -31,12 +31,13 @@ struct InverseReport {
     double seconds = 0;                                                     // of the whole fit, whose steps use the same rays
     double gain = 0;                                                        // G, the light of a white panel at these eyes
     double black = 0, white = 1, prior = 0;                                 // the levels B and W; the prior
-    Nearness fitted, held_out, held_out_traced;                             // means over eyes; of traced content at held-out ones
+    Nearness fitted, held_out;                                              // means over eyes
+    Nearness held_out_traced, held_out_integrated;                          // of simple content, at held-out eyes
     double at_black_percent = 0, at_white_percent = 0, unseen_percent = 0;  // of the panel's subpixels
     /// Of two boxes of eyes: the share of one's light that the other sees if each subpixel shows the picture of those that get most
     /// of its light; levels crosstalk/(1 + crosstalk) and 1/(1 + crosstalk) leave room to subtract all of it.
     std::optional<double> crosstalk;
-    bool traced = false;  // traced content served held-out eyes better
+    PickupKind result = PickupKind::inverse;  // traced or integrated: content that serves held-out eyes better
     std::vector<std::string> warnings;
 };
 

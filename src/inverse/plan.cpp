@@ -1,5 +1,7 @@
 #include "inverse/plan.h"
 
+#include "base/input_error.h"
+#include "engine/devices/memory.h"
 #include "engine/views/panel_rays.h"
 #include "geometry/subpixels.h"
 
@@ -15,6 +17,9 @@
 
 namespace lfdsim {
 namespace {
+
+/// Returns the bytes of the unknowns: seven arrays of them, and integers of twice the size.
+double unknowns_bytes(const Display& d) { return 10 * texel_bytes(d); }
 
 constexpr std::int64_t fewest_places = 24;  // of a box: with 6 or 8 some eyes between them lose 1 to 2.6 dB
 constexpr std::int64_t most_places = 1024;  // unless a number is given: where views have too few elements, more take very long
@@ -152,6 +157,25 @@ Plan plan(const Request& request) {
     if (request.job.cancelled()) return p;
     p.rays = keys.rays.value_or(rays_for(p.counts));
     return p;
+}
+
+void require_memory_for_panel(const Display& d) {
+    require_memory("panel.pixels", "the inverse pick-up, with its arrays of the panel's size,",
+                   unknowns_bytes(d) + picture_bytes(d.panel.pixels[0], d.panel.pixels[1]));
+}
+
+double memory_for_rays(const Request& request, const Display& seen) {
+    const Inverse& keys = request.keys();
+    const double unknowns = unknowns_bytes(request.display);
+    const double view =
+        double(seen.camera.resolution[0]) * double(seen.camera.resolution[1]) * double(*seen.render.samples) * sizeof(PanelRay);
+    const double bytes = keys.memory_mb ? *keys.memory_mb * 1e6 : std::max(free_bytes() - unknowns, 0.) / 2;
+    if (bytes < view)
+        throw InputError("content.inverse.memory_mb",
+                         fmt::format("{:.0f} MB is less than the rays of one view take; give {:.0f} or more", bytes / 1e6,
+                                     std::ceil(view / 1e6)));
+    if (keys.memory_mb) require_memory("content.inverse.memory_mb", "rays that are kept", bytes);
+    return bytes;
 }
 
 }  // namespace lfdsim

@@ -82,4 +82,12 @@ struct Plan {
 /// ray ends on the panel, and for too few places.
 Plan plan(const Request&);
 
+/// Throws InputError if there is no memory for the unknowns and a panel picture; before the first array of the panel's size is
+/// made.
+void require_memory_for_panel(const Display&);
+
+/// Returns the bytes of rays that may be kept: content.inverse.memory_mb, or half of what is free beside the unknowns. Throws
+/// InputError if there is no room for one view of the display as it is seen.
+double memory_for_rays(const Request&, const Display& seen);
+
 }  // namespace lfdsim

@@ -2,7 +2,7 @@
 import json
 
 import numpy
-from PIL import Image
+from PIL import Image, PngImagePlugin
 from program import Checks, Program
 
 program, checks = Program(), Checks()
@@ -27,12 +27,19 @@ checks.that(light.min() >= 0 and light.max() <= 1, f"light from {light.min()} to
 program.must("eia small.toml --pickup inverse --levels 0.2,0.7 -o levels.npy --set content.inverse.rays=16 content.inverse.iterations=4")
 checks.that(numpy.load(program.folder / "levels.npy").mean() > light.mean(), "levels lift no black")
 program.must("eia small.toml --pickup inverse -o again.npy --set content.inverse.rays=16 content.inverse.start=eia.png content.inverse.iterations=2")
+marked = PngImagePlugin.PngInfo()
+marked.add_text("incomplete", "true")
+Image.open(program.folder / "eia.png").save(program.folder / "cut.png", pnginfo=marked)
+code, _, words = program.run("eia small.toml --pickup inverse -o again.npy --set content.inverse.rays=16 content.inverse.start=cut.png content.inverse.iterations=1")
+checks.that(code == 0 and "cut.png: is marked incomplete" in words, f"an incomplete start: {code} {words}")
 said = program.must("render small.toml --pickup inverse --set content.inverse.rays=16 content.inverse.iterations=2 camera.resolution=[64,48] -o view.png")
 checks.that("content at eyes that were not fitted:" in said, f"render does not say how good its content is: {said!r}")
 
 program.must("views small.toml --grid 5x1 --baseline-mm 20 --view-size 60x40 -o grid")
 code, _, words = program.run("eia small.toml --views grid --pickup inverse --eyes-mm=-40,0,600,40,0,600 -o views.png --set content.inverse.rays=16 content.inverse.iterations=3")
 checks.that(code == 0, f"views as targets: {words}")
+code, _, words = program.run("eia small.toml --views grid --pickup inverse --eyes-mm=-300,0,600,-200,0,600 -o beside.png --set content.inverse.rays=16 content.inverse.iterations=1")
+checks.that(code == 2 and "pass beside the views' cameras" in words and not (program.folder / "beside.png").exists(), f"eyes beside all views: {code} {words}")
 
 for picture in (program.folder / "grid").glob("view_*.png"):
     Image.new("RGB", (60, 40)).save(picture)

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Content by inversion on displays drawn at random, held against traced content: inversion.py LFDSIM_PROGRAM [--displays N] [--first N].
+"""Content by inversion on displays drawn at random, held against the other pick-ups: inversion.py LFDSIM_PROGRAM [--displays N] [--first N].
 
-A display shows two pictures of a wall, one behind its lenses and one before them. Its panel is made by the traced and by the inverse pick-up; eyes drawn
-at random in the box that the program reports, which it has neither fitted nor held out, see both by point samples of another seed. Light is
+A display shows two pictures of a wall, one behind its lenses and one before them. Its panel is made by each pick-up; eyes drawn at random in the box that the
+program reports, which it has neither fitted nor held out, see them by point samples of another seed. Light is
 relative to what the program says of a white panel. No display may serve its eyes worse than by traced content by more than 0.1 dB of PSNR in the mean, none of
-them by more than 0.5 dB, and the mean over the displays must be better. Prints a line for each display.
+them by more than 0.5 dB, and in the mean over the displays it must be better than the best of the other pick-ups. Prints a line for each display.
 """
 import argparse
 import json
@@ -24,6 +24,7 @@ sys.path.insert(0, str(ROOT / "bench"))
 import inverse as views  # noqa: E402  (codes)
 
 EYES, SAMPLES, WORST_MEAN_DB, WORST_DB = 4, 256, 0.1, 0.5
+SIMPLE = ("traced", "nodal", "integrated")
 
 
 def shares(white, gain, pitch):
@@ -75,14 +76,14 @@ class Inversions:
         return np.load(out).astype(np.float64)
 
     def display(self, number):
-        """What the program says, and the PSNR of each eye's view by traced and by inverse content; nothing where no eye sees the screen."""
+        """What the program says, and by each pick-up the PSNR of each eye's view; empty where no eye sees the screen."""
         description, path, checked, _ = self.harness.drawn(number, show_walls)
         width, height = panel_mm(description)
         said = {}
-        for pickup in ("traced", "inverse"):
+        for pickup in (*SIMPLE, "inverse"):
             done = self.harness.lfdsim("eia", path, "--pickup", pickup, "--json", "--progress", "none", "-o", self.folder / f"{pickup}.png")
             if done.returncode:
-                return {"refused": done.stderr.strip()}, [], []
+                return {"refused": done.stderr.strip()}, {"traced": []}
             said[pickup] = json.loads(done.stdout)
         report = said["inverse"]["inverse"]
         rng = np.random.default_rng([2031, number])
@@ -99,7 +100,7 @@ class Inversions:
 
         whites = [view(eye, "--pattern", "white") for eye in places]
         gain = report["white_light"]  # a median over this test's elements would count those that are mostly gaps
-        psnr = {"traced": [], "inverse": []}
+        psnr = {pickup: [] for pickup in (*SIMPLE, "inverse")}
         pitch = math.ceil(columns * min(np.max(description["array"]["pitch_mm"]) / (1.1 * width), 1))
         for eye, white in zip(places, whites):
             share = shares(white, gain, pitch)
@@ -110,7 +111,7 @@ class Inversions:
             for pickup, found in psnr.items():
                 seen = view(eye, "--panel-image", self.folder / f"{pickup}.png")[mask] / gain / share[mask][:, None]
                 found.append(-10 * math.log10(max(np.mean((views.codes(seen) - views.codes(photograph[mask]))**2), 1e-12)))
-        return report, psnr["traced"], psnr["inverse"]
+        return report, psnr
 
 
 def main():
@@ -124,22 +125,26 @@ def main():
     options.program = options.program.resolve()
     folder = options.keep or pathlib.Path(tempfile.mkdtemp(prefix="lfdsim-inversion-"))
     folder.mkdir(exist_ok=True, parents=True)
-    inversions, gains, failed = Inversions(options, folder.resolve()), [], 0
+    inversions, gains, over_best, failed = Inversions(options, folder.resolve()), [], [], 0
     for n in range(options.first, options.first + options.displays):
         number = n // 2 + (displays.OTHERS if n % 2 else 0)  # both halves of what can be drawn
-        report, traced, inverse = inversions.display(number)
-        if not traced:
+        report, psnr = inversions.display(number)
+        if not psnr["traced"]:
             print(f"{number:5} {report.get('refused', 'no eye sees enough of the screen')}", flush=True)
             continue
-        gain = np.array(inverse) - np.array(traced)
+        gain = np.array(psnr["inverse"]) - np.array(psnr["traced"])
+        best = max(SIMPLE, key=lambda pickup: np.mean(psnr[pickup]))
         gains.append(gain.mean())
+        over_best.append(np.mean(psnr["inverse"]) - np.mean(psnr[best]))
         held = gain.mean() >= -WORST_MEAN_DB and gain.min() >= -WORST_DB
         failed += not held
-        print(f"{number:5} traced {np.mean(traced):6.2f} dB, gain {gain.mean():+6.2f}, least {gain.min():+6.2f} dB{'' if held else ' FAILED'}; the program says "
+        print(f"{number:5} traced {np.mean(psnr['traced']):6.2f} dB, gain {gain.mean():+6.2f}, least {gain.min():+6.2f} dB{'' if held else ' FAILED'}; "
+              f"{over_best[-1]:+6.2f} over {best}; the program says "
               f"{report['held_out_traced']['psnr_db']:.2f} and {report['held_out']['psnr_db']:.2f}; {report['places']} places, {report['rays_per_element']} rays, "
-              f"{report['seconds']:.1f} s{', traced is written' if report['traced'] else ''}", flush=True)
-    print(f"{len(gains)} displays, mean gain {np.mean(gains):+.2f} dB, median {np.median(gains):+.2f}; {failed} failed")
-    return 1 if failed or not np.mean(gains) > 0 else 0
+              f"{report['seconds']:.1f} s{'' if report['result'] == 'inverse' else ', written is ' + report['result']}", flush=True)
+    print(f"{len(gains)} displays, mean gain {np.mean(gains):+.2f} dB, median {np.median(gains):+.2f}, over the best of the others {np.mean(over_best):+.2f} and "
+          f"{np.median(over_best):+.2f}, {min(over_best):+.2f} at least; {failed} failed")
+    return 1 if failed or not np.mean(over_best) > 0 else 0
 
 
 if __name__ == "__main__":

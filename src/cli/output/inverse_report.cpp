@@ -1,5 +1,7 @@
 #include "cli/output/inverse_report.h"
 
+#include "display/keys.h"
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <algorithm>
@@ -29,9 +31,9 @@ std::string inverse_text(const InverseReport& report) {
                                   : fmt::format("{:.2f} dB, SSIM {:.3f}", n.psnr_db, n.ssim);
     };
     const bool points = std::ranges::all_of(report.boxes, [](const EyeBox& box) { return box.low == box.high; });
-    return fmt::format("at {}: {} (traced content: {}); {} eyes{}, {} steps{}",
+    return fmt::format("at {}: {} (traced content: {}; integrated: {}); {} eyes{}, {} steps{}",
                        points ? "the fitted eyes, by other rays" : "eyes that were not fitted", nearness(report.held_out),
-                       nearness(report.held_out_traced), report.places,
+                       nearness(report.held_out_traced), nearness(report.held_out_integrated), report.places,
                        report.rim_places > 0 ? fmt::format(" and {} around them", report.rim_places) : "", report.iterations,
                        crosstalk);
 }
@@ -55,8 +57,9 @@ Json inverse_json(const InverseReport& r) {
             {"fitted", nearness_json(r.fitted)},
             {"held_out", nearness_json(r.held_out)},
             {"held_out_traced", nearness_json(r.held_out_traced)},
+            {"held_out_integrated", nearness_json(r.held_out_integrated)},
             {"crosstalk", r.crosstalk ? Json(*r.crosstalk) : Json()},
-            {"traced", r.traced},
+            {"result", words<PickupKind>()[std::size_t(r.result)]},
             {"at_black_percent", r.at_black_percent},
             {"at_white_percent", r.at_white_percent},
             {"unseen_percent", r.unseen_percent}};

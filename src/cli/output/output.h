@@ -37,9 +37,6 @@ inline constexpr const char* software = "lfdsim " LFDSIM_VERSION;
 /// The remedy for pictures whose light is cut off.
 inline constexpr const char* keeps_light = "an .exr or .npy keeps their light";
 
-/// The key of a picture's metadata that marks it as incomplete.
-inline constexpr const char* incomplete_mark = "incomplete";
-
 /// Remembers the file that an argument names as one that no output may replace. Throws InputError that names the argument if no
 /// file is named.
 void check_input(const std::string& argument, const std::string& path);

@@ -17,6 +17,8 @@ namespace lfdsim {
 
 /// Settings that made a picture, kept in it (PNG text chunks, EXR attributes; NPY has no place for them).
 using Metadata = std::map<std::string, std::string>;
+/// The key of the metadata that marks a picture as incomplete.
+inline constexpr const char* incomplete_mark = "incomplete";
 
 /// Further data for every pixel, of the picture's size; for instance "error", the standard error of each channel in linear
 /// light. EXR keeps it as the channels NAME.R, NAME.G, NAME.B; no other format can.
