@@ -1,8 +1,10 @@
 // Advice on dark bands between lenses, and on diffusers that are too strong. docs/model.md, "Dark bands between lenses".
 
+#include "base/bisection.h"
 #include "base/constants.h"
 #include "checks/advice_parts.h"
 #include "geometry/dark_bands.h"
+#include "geometry/diffuser_profile.h"
 #include "geometry/resolve.h"
 #include "geometry/seen_width.h"
 #include "geometry/sharp_range.h"
@@ -52,13 +54,15 @@ std::optional<std::string> harm(const Advised& a, double distance_mm, const std:
             seen_by_diffuser_mm(g, away, profile, deg[main], distance_mm + g.vertex_plane_mm - g.rear_principal_mm) >
         most_seen_share * a.theory.along[axis_of_eyes(g)].elemental_pitch_mm)
         return "mix views";
+    // Modulation behind a box falls to one half at 0.603 cycles per width, behind a gaussian at 0.441 cycles.
+    const double cycles = bisected(0, 1, 40, [&](double f) { return figures_of(profile).transfer(f) > 0.5; }).in;
     const double z = g.content_depth_mm;
+    const bool on_side = std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn);  // x' is nearer to the display's y
     for (const std::size_t k : {0u, 1u}) {
-        const std::size_t axis = is_strips(d.array) ? 0 : k;
+        const std::size_t axis = is_strips(d.array) ? 0 : on_side ? 1 - k : k;
         const double wide = 2 * std::abs(z - distance_mm) * std::tan(deg[k] * degree / 2);
         const double finest = std::min(lens_limit_per_mm(d, g, a.theory, z, eye, axis), pixel_limit_per_mm(d, g, z));
-        // Modulation behind a box falls to one half at 0.603 cycles per width.
-        if ((!is_strips(d.array) || k == main) && 0.603 / wide < 0.5 * finest) return "blur the content";
+        if ((!is_strips(d.array) || k == main) && cycles / wide < 0.5 * finest) return "blur the content";
     }
     return {};
 }
@@ -84,10 +88,11 @@ void advise_on_diffuser(Advised& a) {
     // the diffuser's height above the plane that limits the light: at the best distance (best_deg) and at the actual one (angle).
     const double eye = camera_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(d, g, a.theory, eye);
     const std::array<double, 2> joining = joining_spread_mm(g);
-    const std::size_t main = joining[0] > 0 ? 0 : 1;  // strips need one angle alone
+    const std::size_t main = joining[0] > 0 ? 0 : 1;                                   // strips need one angle alone
+    const bool on_side = std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn);  // x' is nearer to the display's y
     std::array<double, 2> best_deg, height, angle;
     for (const std::size_t k : {0u, 1u}) {
-        const std::size_t axis = strips ? 0 : k;
+        const std::size_t axis = strips ? 0 : on_side ? 1 - k : k;
         const double given = d.diffuser ? d.diffuser->angle_deg[k] : 0;  // stays, where it does not matter
         const auto closing = [&](double above) { return joining[k] > 0 ? gap_closing_angle_deg(joining[k], above) : given; };
         best_deg[k] = closing(g.vertex_plane_mm + best_distance - aperture_plane_mm(d, g, axis));
@@ -118,12 +123,16 @@ void advise_on_diffuser(Advised& a) {
             return 2 * height[k] * std::tan(d.diffuser->angle_deg[k] * degree / 2) / joining[k];
         };
         const double distance = d.diffuser->distance_mm + height[main] * (1 / spread(main) - 1);  // where this diffuser joins them
-        std::string remedy = too_near || harm(a, d.diffuser->distance_mm, angle, main)
-                                 ? best
-                                 : fmt::format("At its distance use {} ({})", degrees_text(angle), option_text(angle));
+        std::string remedy;
+        if (!too_near && !harm(a, d.diffuser->distance_mm, angle, main))
+            remedy = fmt::format("At its distance use {} ({})", degrees_text(angle), option_text(angle));
+        else if (!harmful)
+            remedy = best;
         if ((strips || (joining[0] == joining[1] && wide == high)) && distance > g.top_z_mm - g.vertex_plane_mm &&
             distance < eye / 2 && !harm(a, distance, d.diffuser->angle_deg, main))
-            remedy += fmt::format(", or keep its angle at a distance of {0:.5g} mm (--set diffuser.distance_mm={0:.5g})", distance);
+            remedy += fmt::format("{1} its angle at a distance of {0:.5g} mm (--set diffuser.distance_mm={0:.5g})", distance,
+                                  remedy.empty() ? "Keep" : ", or keep");
+        if (remedy.empty()) remedy = best;
         const std::string spreads =
             strips ? fmt::format("{:.3g} lens pitches along the panel's {}; 1", spread(main), main == 0 ? "rows" : "columns")
                    : fmt::format("{:.3g} x {:.3g} lens pitches; 1 x 1", spread(0), spread(1));

@@ -200,10 +200,10 @@ struct Inverse {
     std::optional<double> rim;           // view steps around a box in which further eyes count a quarter; default 3, of strips 0
     std::optional<double> pupil_mm;      // default: the camera's, else 4
     std::optional<double> pixel_mm;      // width of an element of a view, in the plane of the content's middle
-    std::optional<double> prior;         // pull to traced content; default 0.001, or 0.3 where there are too few rays
+    std::optional<double> prior;         // pull to traced or integrated content; default 0.001, or 0.3 where there are too few rays
     ErrorOf weighting = ErrorOf::eye;
     std::int64_t iterations = 20;     // at most
-    std::string start;                // picture that the fit begins with; empty: traced content
+    std::string start;                // picture that the fit begins with; empty: traced or integrated content
     std::optional<double> memory_mb;  // for rays that are kept; default: half of what is free
     bool operator==(const Inverse&) const = default;
 };

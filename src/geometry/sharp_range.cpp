@@ -84,9 +84,9 @@ std::string depths_in_words(const Geometry& g, const SharpRange& range, double e
 double lens_limit_per_mm(const Display& d, const Geometry& g, const Theory& t, double depth, double eye_mm, std::size_t axis) {
     const double to_eye = eye_mm - g.vertex_plane_mm, p = lens_pitch_mm(g, axis), L = t.central_depth_mm;
     const double seen = g.clear_aperture_mm[axis] * g.gap_mm * std::abs(1 / (eye_mm - g.rear_principal_mm) - 1 / L);
-    const bool by_points = !(seen >= d.panel.pixel_pitch_mm);  // pinholes, too, which have no L
-    return by_points ? to_eye / (2 * p * (to_eye - depth))
-                     : 1 / (2 * p * std::abs(1 - (depth + g.vertex_plane_mm - g.rear_principal_mm) / L));
+    if (!(seen >= d.panel.pixel_pitch_mm)) return to_eye / (2 * p * (to_eye - depth));  // pinholes, too, which have no L
+    const double jump = std::abs(1 - (depth + g.vertex_plane_mm - g.rear_principal_mm) / L);
+    return jump > 1e-9 ? 1 / (2 * p * jump) : infinity;  // what is less is left by rounding
 }
 
 double pixel_limit_per_mm(const Display& d, const Geometry& g, double depth) {

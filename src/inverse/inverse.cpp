@@ -161,6 +161,7 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     Job& job = request.job;
     const Inverse& keys = request.keys();
     const auto stopped = [&] {
+        if (!simple.empty()) report.result = PickupKind::traced;
         return InvertedPanel{{simple.empty() ? Image(int(request.display.panel.pixels[0]), int(request.display.panel.pixels[1]))
                                              : std::move(simple.front()),
                               false},
@@ -264,12 +265,12 @@ InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const std::
     for (const PickupKind pickup : {PickupKind::traced, PickupKind::integrated}) {
         Picture made = content_by(pickup);
         simple.push_back(std::move(made.image));
-        if (!made.complete) return {{std::move(simple.front()), false}, {}};
+        if (!made.complete) return {{std::move(simple.front()), false}, {.result = PickupKind::traced}};
     }
     return on_threads(request.threads, [&] {
         const Inverse& keys = request.keys();
         const Plan p = plan(request);
-        if (request.job.cancelled()) return InvertedPanel{{std::move(simple.front()), false}, {}};
+        if (request.job.cancelled()) return InvertedPanel{{std::move(simple.front()), false}, {.result = PickupKind::traced}};
         InverseReport report = planned(request, p.in_boxes, p.rays, p.counts);
         report.rim_places = std::int64_t(p.eyes.size()) - p.in_boxes;
         if (const double views = views_within(request.boxes, request.display, request.geometry);
@@ -322,7 +323,7 @@ InvertedPanel invert(const Display& display, const Geometry& geometry, const Lig
                           threads,
                           job};
     const auto require_views = [&] {
-        if (rays.all > 0 && rays.unseen == rays.all)
+        if (!job.cancelled() && rays.all > 0 && rays.unseen == rays.all)
             throw InputError("content.inverse.eyes_mm",
                              "all rays from these eyes pass beside the views' cameras; give eyes that the cameras surround "
                              "(--eyes-mm), or more views");

@@ -108,8 +108,8 @@ std::string warning_of_few_rays(const Request& request, std::int64_t places, dou
                                     : fmt::format("give content.inverse.places = {:.0f} or more", enough));
     }
     if (keys.rays) remedies.emplace_back("leave out content.inverse.rays");
-    const std::string pulled =
-        fmt::format(", and is pulled to {} (prior {})", pictures ? "the mean of the pictures" : "traced content", careful_prior);
+    const std::string pulled = fmt::format(", and is pulled to {} (prior {})",
+                                           pictures ? "the mean of the pictures" : "traced or integrated content", careful_prior);
     return fmt::format(
         "the eyes' views have {:.3g} elements and {:.3g} rays with light for each panel pixel that they meet; below {} "
         "and {} the fit follows noise{}; {}",

@@ -22,7 +22,8 @@ std::vector<EyeBox> inverse_eyes(const Display& display, const Geometry& geometr
     const double z = subject.viewing_distance_mm(), eye = z - geometry.rear_principal_mm;
     Subject searched = subject;
     Quiet quiet(job);
-    // Returns the zone along x (0) or y (1): its limits, traced, at 1 % wrong rays, else at 50 %, else those of theory.
+    // Returns the zone along x (0) or y (1): its limits, traced, at 1 % wrong rays, else at 50 %, else those of theory; where
+    // there is none, half the field of view of one lens.
     const auto zone_along = [&](std::size_t axis) {
         const ParaxialZone theory = paraxial_zone(subject, is_strips(display.array) ? 0 : axis);
         ZoneSearch search(searched, quiet, zone_steps(searched));
@@ -30,7 +31,8 @@ std::vector<EyeBox> inverse_eyes(const Display& display, const Geometry& geometr
             const double low = limits.low.place(), high = limits.high.place();
             if (!limits.empty && low < high) return std::array{low, high};
         }
-        return std::array{-eye * theory.half_slope(eye), eye * theory.half_slope(eye)};
+        const double slope = theory.half_slope(eye) > 0 ? theory.half_slope(eye) : 0.5 * theory.half_fov;
+        return std::array{-eye * slope, eye * slope};
     };
     EyeBox box{{0, 0, z}, {0, 0, z}};
     const std::size_t axis = line_of_eyes(geometry.lattice);

@@ -218,8 +218,14 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
         lens.values.push_back(finite(r.lens_limit_per_mm));
         pixel.values.push_back(finite(r.pixel_limit_per_mm));
     }
-    plot.series.push_back({"lens sampling", depths, lens.values});
-    plot.series.push_back({"pixel limit, g/2az", depths, pixel.values});
+    // That of the lenses has no bound at L, that of the pixels at the lenses: the plot shows them where they may limit.
+    const auto bounded = [&](std::vector<double> limits) {
+        for (double& limit : limits)
+            if (!(limit <= 4 * s.theory(0).lens_sampling_limit_per_mm)) limit = nan;
+        return limits;
+    };
+    plot.series.push_back({"lens sampling", depths, bounded(lens.values)});
+    plot.series.push_back({"pixel limit, g/2az", depths, bounded(pixel.values)});
     const double middle = s.theory().central_depth_mm + s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
     if (middle >= depths.front() && middle <= depths.back()) plot.marks.push_back({"central depth plane", middle});
     table.columns.push_back(std::move(lens));
@@ -228,7 +234,8 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
     result.plots.push_back(std::move(plot));
 
     result.remarks.push_back(
-        "Resolution is MTF50 or, where lower, half a cycle per lens pitch or per image of a panel pixel: finer detail is aliased. "
+        "Resolution is MTF50 or, where lower, half a cycle per jump from lens to lens, p |1 - z/L|, or per image of a panel pixel: "
+        "finer detail is aliased. "
         "Values per degree are as seen from the eye. The display is seen through a pinhole, so that neither the optics nor the "
         "focus of an eye enters. MTF is that of lines of sight through the whole screen; MTF of edges in pictures, which sample "
         "some positions, is given for comparison. Lenses that show a point of the plane at different positions blur the mean edge; "

@@ -91,9 +91,10 @@ void run(const EiaArguments& args) {
     }
     Metadata about{{"seconds", fmt::format("{:.3f}", picture.seconds)}};
     if (args.pattern.given()) about[pattern_mark] = args.pattern.name();
-    const std::string incomplete = !inverse                  ? ""
-                                   : inverse->iterations > 0 ? "the best panel so far"
-                                                             : "traced content, as far as it was made";
+    std::string incomplete;
+    if (inverse)
+        incomplete = inverse->result == PickupKind::traced && inverse->iterations == 0 ? "traced content, as far as it was made"
+                                                                                       : "the best panel so far";
     more.update(args.output.write(picture.image, display.panel.encoding, display, std::move(about), picture.complete, progress, {},
                                   incomplete));
     print_made(PictureMade{args.output.path(), picture.image.width, picture.image.height, "rays", picture.rays, picture.seconds},

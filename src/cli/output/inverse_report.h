@@ -9,7 +9,8 @@ namespace lfdsim::cli {
 
 /// Logs the warnings of the inverse pick-up.
 void warn_of_inverse(const InverseReport&);
-/// Returns the result in words: "at eyes that were not fitted: 31.10 dB, SSIM 0.830 (traced content: 27.40 dB, SSIM 0.760); ...".
+/// Returns the result in words: "at eyes that were not fitted: 31.10 dB, SSIM 0.830 (traced content: 27.40 dB, SSIM 0.760;
+/// integrated: ...); ...".
 std::string inverse_text(const InverseReport&);
 /// Returns all figures of the result, for --json.
 Json inverse_json(const InverseReport&);
