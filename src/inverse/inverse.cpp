@@ -262,15 +262,20 @@ struct Meant {
 /// fit is compared with.
 InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const std::function<Picture(PickupKind)>& content_by) {
     SimpleContent simple;
+    const auto stopped = [&] {
+        InvertedPanel traced{{std::move(simple.front()), false}, {}};
+        traced.report.result = PickupKind::traced;
+        return traced;
+    };
     for (const PickupKind pickup : {PickupKind::traced, PickupKind::integrated}) {
         Picture made = content_by(pickup);
         simple.push_back(std::move(made.image));
-        if (!made.complete) return {{std::move(simple.front()), false}, {.result = PickupKind::traced}};
+        if (!made.complete) return stopped();
     }
     return on_threads(request.threads, [&] {
         const Inverse& keys = request.keys();
         const Plan p = plan(request);
-        if (request.job.cancelled()) return InvertedPanel{{std::move(simple.front()), false}, {.result = PickupKind::traced}};
+        if (request.job.cancelled()) return stopped();
         InverseReport report = planned(request, p.in_boxes, p.rays, p.counts);
         report.rim_places = std::int64_t(p.eyes.size()) - p.in_boxes;
         if (const double views = views_within(request.boxes, request.display, request.geometry);
