@@ -79,9 +79,8 @@ void advise_on_lenses(Advised& a) {
             d.panel.pixel_pitch_mm);
     else if (drift(drifts) > 0.5 && !strips)  // which lean so that their views are not whole numbers
         a.say(
-            "a lens covers {:.4f} panel pixels, its elemental image {:.4f}, neither a whole number: across the array this adds up "
-            "to "
-            "{:.2g} pixels",
+            "a lens covers {:.4f} panel pixels, its elemental image {:.4f}, neither a whole number: across the array this adds "
+            "up to {:.2g} pixels",
             t.along[drifts].views, images(drifts), drift(drifts));
 }
 

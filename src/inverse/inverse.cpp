@@ -61,25 +61,32 @@ PanelVector start_of(const Request& request, const PanelVector& centre) {
     return vector_of(image);
 }
 
-/// Content that needs no fit: traced and integrated; none for given pictures.
-using SimpleContent = std::vector<Image>;
+/// Content that needs no fit, by the traced or the integrated pick-up.
+struct SimpleContent {
+    PickupKind pickup;
+    Image image;
+};
 
-/// Returns the centre x0 of the prior. It is the simple content, at the levels B and W, that is better for held-out eyes, traced
-/// content if there are none; its kind and its figures are written to the report.
-PanelVector centre_of(const SimpleContent& simple, const Exposure& exposure, const FittedViews& held_out, InverseReport& report) {
-    PanelVector centre;
-    Nearness* const told[] = {&report.held_out_traced, &report.held_out_integrated};
-    constexpr PickupKind kinds[] = {PickupKind::traced, PickupKind::integrated};
-    for (std::size_t k = 0; k < simple.size(); ++k) {
-        PanelVector x = vector_of(simple[k]);
+/// The centre x0 of the prior, what kind of content it is, and how near it comes to what held-out eyes should see.
+struct Centre {
+    PanelVector x;
+    PickupKind content = PickupKind::inverse;
+    Nearness held_out = {};
+};
+
+/// Returns the simple content, at the levels B and W, that is better for held-out eyes; the first if they compare none. Writes the
+/// report's figures of each.
+Centre centre_of(const std::vector<SimpleContent>& simple, const Exposure& exposure, const FittedViews& held_out,
+                 InverseReport& report) {
+    Centre best;
+    for (const auto& [pickup, image] : simple) {
+        PanelVector x = vector_of(image);
         for (float& light : x) light = float(exposure.black + (exposure.white - exposure.black) * double(light));
-        *told[k] = held_out.nearness(x);
-        if (k > 0 && !(told[k]->psnr_db > told[0]->psnr_db)) continue;
-        centre = std::move(x);
-        report.held_out = *told[k];
-        report.result = kinds[k];
+        const Nearness found = held_out.nearness(x);
+        (pickup == PickupKind::traced ? report.held_out_traced : report.held_out_integrated) = found;
+        if (best.x.empty() || found.psnr_db > best.held_out.psnr_db) best = {std::move(x), pickup, found};
     }
-    return centre;
+    return best;
 }
 
 /// Returns the centre where there is no simple content: M'VU t / bound, the mean of what the eyes should see of each pixel.
@@ -156,14 +163,14 @@ Solved solve(const Request& request, FittedViews& views, const PanelVector& boun
 /// Fits the eyes' views, and compares the result at held-out eyes. The fit is pulled to and begins with the best of the simple
 /// content; traced content is the result, not complete, if the job is cancelled before the first step.
 InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<const Eye> held_out_eyes, const EyeCounts& counts,
-                  std::int64_t rays, SimpleContent simple, InverseReport report) {
+                  std::int64_t rays, std::vector<SimpleContent> simple, InverseReport report) {
     const auto start = std::chrono::steady_clock::now();
     Job& job = request.job;
     const Inverse& keys = request.keys();
     const auto stopped = [&] {
         if (!simple.empty()) report.result = PickupKind::traced;
         return InvertedPanel{{simple.empty() ? Image(int(request.display.panel.pixels[0]), int(request.display.panel.pixels[1]))
-                                             : std::move(simple.front()),
+                                             : std::move(simple.front().image),
                               false},
                              report};
     };
@@ -202,20 +209,18 @@ InvertedPanel fit(const Request& request, std::span<const Eye> eyes, std::span<c
     const PanelVector bound = fitted.bound(size);
     if (job.cancelled()) return stopped();
     if (request.boxes.size() == 2) report.crosstalk = fitted.crosstalk(std::size_t(report.places), size);
-    const PanelVector centre =
-        simple.empty() ? mean_of_eyes(fitted, exposure, bound) : centre_of(simple, exposure, held_out, report);
+    const Centre centre =
+        simple.empty() ? Centre{mean_of_eyes(fitted, exposure, bound)} : centre_of(simple, exposure, held_out, report);
     simple.clear();
-    const bool scored = !held_out_eyes.empty() && !std::isnan(report.held_out.psnr_db);
-    const Nearness of_simple = report.held_out;
-    const PickupKind kind = std::exchange(report.result, PickupKind::inverse);
+    const bool scored = !std::isnan(centre.held_out.psnr_db);
     if (!held_out_eyes.empty() && !scored)
         report.warnings.push_back("held-out eyes see too little of the screen to be compared: the last step's panel is written");
     // The steps. Where simple content is better for held-out eyes, it is the result.
-    Solved solved = solve(request, fitted, bound, scored ? &held_out : nullptr, start_of(request, centre), centre, report);
-    if (scored && !(report.held_out.psnr_db > of_simple.psnr_db)) {
-        solved.x = centre;
-        report.held_out = of_simple;
-        report.result = kind;
+    Solved solved = solve(request, fitted, bound, scored ? &held_out : nullptr, start_of(request, centre.x), centre.x, report);
+    if (scored && !(report.held_out.psnr_db > centre.held_out.psnr_db)) {
+        solved.x = centre.x;
+        report.held_out = centre.held_out;
+        report.result = centre.content;
     }
     report.fitted = fitted.nearness(solved.x, std::size_t(report.places), std::size_t(report.places + 7) / 8);
     report.seconds = seconds_since(start);
@@ -261,15 +266,15 @@ struct Meant {
 /// Plans eyes and rays, fits them, and adds warnings to the report. `content_by` returns the content by another pick-up, which the
 /// fit is compared with.
 InvertedPanel fit_boxes(const Request& request, bool errors_unknown, const std::function<Picture(PickupKind)>& content_by) {
-    SimpleContent simple;
+    std::vector<SimpleContent> simple;
     const auto stopped = [&] {
-        InvertedPanel traced{{std::move(simple.front()), false}, {}};
+        InvertedPanel traced{{std::move(simple.front().image), false}, {}};
         traced.report.result = PickupKind::traced;
         return traced;
     };
     for (const PickupKind pickup : {PickupKind::traced, PickupKind::integrated}) {
         Picture made = content_by(pickup);
-        simple.push_back(std::move(made.image));
+        simple.push_back({pickup, std::move(made.image)});
         if (!made.complete) return stopped();
     }
     return on_threads(request.threads, [&] {

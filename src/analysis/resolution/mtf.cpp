@@ -235,8 +235,8 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
 
     result.remarks.push_back(
         "Resolution is MTF50 or, where lower, half a cycle per jump from lens to lens, p |1 - z/L|, or per image of a panel pixel: "
-        "finer detail is aliased. "
-        "Values per degree are as seen from the eye. The display is seen through a pinhole, so that neither the optics nor the "
+        "finer detail is aliased. Values per degree are as seen from the eye. The display is seen through a pinhole, so that "
+        "neither the optics nor the "
         "focus of an eye enters. MTF is that of lines of sight through the whole screen; MTF of edges in pictures, which sample "
         "some positions, is given for comparison. Lenses that show a point of the plane at different positions blur the mean edge; "
         "the discontinuities of the picture at lens borders are not included.");

@@ -40,8 +40,8 @@ double pixel_image_mm(const Display& d, const Geometry& g, double z_mm) {
 }
 
 double lens_limit_per_mm(const Subject& s, const Direction& direction, double z_mm, double angle_deg) {
-    return lfdsim::lens_limit_per_mm(s.display(), s.geometry(), s.theory(), z_mm - s.geometry().vertex_plane_mm,
-                                     s.viewing_distance_mm() * std::cos(angle_deg * degree), std::size_t(direction.axis));
+    return lens_limit_per_mm(s.display(), s.geometry(), s.theory(), z_mm - s.geometry().vertex_plane_mm,
+                             s.viewing_distance_mm() * std::cos(angle_deg * degree), std::size_t(direction.axis));
 }
 
 double pixel_limit_per_mm(const Subject& s, const Direction& direction, double z_mm) {

@@ -243,8 +243,7 @@ std::optional<std::string> on_eyes(const Display& d, const Geometry& g, const Se
                                                    : "smaller pixels, or a larger gap";
     return fmt::format(
         "{}each lens spreads what one eye should see over {} mm there, {} mm of which are the width of a pixel. Views would "
-        "separate {}"
-        "with {}",
+        "separate {}with {}",
         fault, digits(wide), digits(pixel), nearer >= nearest_sight_mm ? fmt::format("nearer than {} mm, or ", digits(nearer)) : "",
         remedy);
 }
