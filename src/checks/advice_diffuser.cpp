@@ -57,9 +57,8 @@ std::optional<std::string> harm(const Advised& a, double distance_mm, const std:
     // Modulation behind a box falls to one half at 0.603 cycles per width, behind a gaussian at 0.441 cycles.
     const double cycles = bisected(0, 1, 40, [&](double f) { return figures_of(profile).transfer(f) > 0.5; }).in;
     const double z = g.content_depth_mm;
-    const bool on_side = std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn);  // x' is nearer to the display's y
     for (const std::size_t k : {0u, 1u}) {
-        const std::size_t axis = is_strips(d.array) ? 0 : on_side ? 1 - k : k;
+        const std::size_t axis = array_axis(g, k);
         const double wide = 2 * std::abs(z - distance_mm) * std::tan(deg[k] * degree / 2);
         const double finest = std::min(lens_limit_per_mm(d, g, a.theory, z, eye, axis), pixel_limit_per_mm(d, g, z));
         if ((!is_strips(d.array) || k == main) && cycles / wide < 0.5 * finest) return "blur the content";
@@ -88,11 +87,10 @@ void advise_on_diffuser(Advised& a) {
     // the diffuser's height above the plane that limits the light: at the best distance (best_deg) and at the actual one (angle).
     const double eye = camera_distance_mm(d) - g.vertex_plane_mm, best_distance = best_distance_mm(d, g, a.theory, eye);
     const std::array<double, 2> joining = joining_spread_mm(g);
-    const std::size_t main = joining[0] > 0 ? 0 : 1;                                   // strips need one angle alone
-    const bool on_side = std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn);  // x' is nearer to the display's y
+    const std::size_t main = joining[0] > 0 ? 0 : 1;  // strips need one angle alone
     std::array<double, 2> best_deg, height, angle;
     for (const std::size_t k : {0u, 1u}) {
-        const std::size_t axis = strips ? 0 : on_side ? 1 - k : k;
+        const std::size_t axis = array_axis(g, k);
         const double given = d.diffuser ? d.diffuser->angle_deg[k] : 0;  // stays, where it does not matter
         const auto closing = [&](double above) { return joining[k] > 0 ? gap_closing_angle_deg(joining[k], above) : given; };
         best_deg[k] = closing(g.vertex_plane_mm + best_distance - aperture_plane_mm(d, g, axis));

@@ -8,8 +8,9 @@
 
 namespace lfdsim {
 
-std::size_t axis_of_eyes(const Geometry& g) {
-    return !g.lattice.strips && std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn) ? 1 : 0;
+std::size_t array_axis(const Geometry& g, std::size_t k) {
+    const bool on_side = std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn);
+    return g.lattice.strips ? 0 : on_side ? 1 - k : k;
 }
 
 double seen_through_lens_mm(const Geometry& g, double eye_mm) {

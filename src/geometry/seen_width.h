@@ -9,8 +9,11 @@ namespace lfdsim {
 /// An eye must see at most this share of an elemental image at once: if it sees more, no position shows only one view.
 inline constexpr double most_seen_share = 0.5;
 
+/// Returns the array's axis, x' (0) or y' (1), that is nearest to the display's x (k = 0) or y (1); of strips, which have one, 0.
+std::size_t array_axis(const Geometry&, std::size_t k);
+
 /// Returns the axis of the array, 0: x', 1: y', that is nearer to the line through a viewer's eyes; of strips x'.
-std::size_t axis_of_eyes(const Geometry&);
+inline std::size_t axis_of_eyes(const Geometry& g) { return array_axis(g, 0); }
 
 /// Returns the width, mm along that axis, that an eye at the distance E from H' sees through a lens: D |1 + g/E - g/f|.
 double seen_through_lens_mm(const Geometry&, double eye_mm);

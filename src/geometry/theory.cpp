@@ -9,6 +9,7 @@
 #include "geometry/layers.h"
 #include "geometry/resolve.h"
 #include "geometry/screen.h"
+#include "geometry/seen_width.h"
 #include "geometry/vec.h"
 
 namespace lfdsim {
@@ -56,7 +57,8 @@ AxisTheory theory_along(const Display& d, const Geometry& g, double L, std::size
     t.viewing_zone_parallel_deg = zone_deg(0);
     t.viewing_zone_deg = zone_deg(gap / made_for);
     t.lens_sampling_limit_per_mm = 1 / (2 * p);
-    const double joining = p / std::max(std::abs(g.lattice.cos_turn), std::abs(g.lattice.sin_turn));  // joining_spread_mm()
+    const std::array<double, 2> spread = joining_spread_mm(g);  // along the display's axes
+    const double joining = is_strips(d.array) ? std::max(spread[0], spread[1]) : spread[array_axis(g, axis)];
     t.gap_closing_diffuser_deg = gap_closing_angle_deg(joining, std::abs(L));
     t.gap_closing_here_deg =
         g.diffuser_z_mm ? gap_closing_angle_deg(joining, *g.diffuser_z_mm - aperture_plane_mm(d, g, axis)) : std::nan("");

@@ -7,6 +7,7 @@
 #include "geometry/dark_bands.h"
 #include "geometry/lens_misalignment.h"
 #include "geometry/resolve.h"
+#include "geometry/seen_width.h"
 
 #include <algorithm>
 
@@ -44,8 +45,7 @@ std::string mixing_remedy(const Display& d, const Geometry& g, const Theory& t, 
     // them), or it mixes views as well, and must make no dark bands in place of coloured ones. It is tried at its present distance
     // and near the lenses, with angles that move the wave by 1, 1.5 and 2 periods.
     const double near = 0.5 * std::min(lens_pitch_mm(g, 0), lens_pitch_mm(g, 1));
-    const bool strips = g.lattice.strips, on_side = std::abs(g.lattice.cos_turn) < std::abs(g.lattice.sin_turn);
-    const auto most = [&](std::size_t k) { return 0.25 * t.along[strips ? 0 : on_side ? 1 - k : k].fov_deg; };
+    const auto most = [&](std::size_t k) { return 0.25 * t.along[array_axis(g, k)].fov_deg; };
     const auto bands = [](const Display& of) {
         const auto [across, up] = band_contrast(of, resolve(of));
         return std::isnan(up) ? across : std::max(across, up);
