@@ -18,14 +18,14 @@
 namespace lfdsim {
 namespace {
 
-/// Returns the bytes of the unknowns: seven arrays of them, and integers of twice the size.
-double unknowns_bytes(const Display& d) { return 10 * texel_bytes(d); }
-
 constexpr std::int64_t fewest_places = 24;  // of a box: with 6 or 8 some eyes between them lose 1 to 2.6 dB
 constexpr std::int64_t most_places = 1024;  // unless a number is given: where views have too few elements, more take very long
 constexpr double rim_weight = 0.25;         // of all eyes around the boxes, relative to that of all eyes in them
 constexpr double fewest_rows = 2, fewest_rays = 20;  // for each panel pixel met: below this the fit follows noise
 constexpr std::int64_t rays_to_count = 4;            // of an element, to count the pixels that are met
+
+/// Returns the bytes of the unknowns: seven arrays of them, and integers of twice the size.
+double unknowns_bytes(const Display& d) { return 10 * texel_bytes(d); }
 
 /// Returns the shift of an eye's grid of elements, along both axes uniform in [0, 1): a function of seed and number alone.
 std::pair<double, double> shift_of(const Request& request, std::int64_t place) {

@@ -8,6 +8,7 @@
 #include "analysis/fov/thresholds.h"
 #include "analysis/pictures/views.h"
 #include "analysis/resolution/dof_depths.h"
+#include "analysis/resolution/mtf_theory.h"
 #include "analysis/spots/spot_depth.h"
 #include "base/constants.h"
 #include "checks/depth_words.h"
@@ -118,13 +119,8 @@ void add_resolution(const Subject& s, Result& result, const std::vector<double>&
     Plot plot{"dof_resolution", "Finest detail by theory", "depth in front of the lenses, mm", "cycles per degree", {}};
     const double at_lenses = s.theory(int(coarser)).lens_sampling_limit_per_mm;
     const double at_lenses_per_degree = cycles_per_degree(g, at_lenses, 0, eye);
-    const auto bounded = [&](std::vector<double> limit) {  // that of the pixels has no bound at the lenses, that of the lenses at L
-        for (double& x : limit)
-            if (!(x <= 4 * at_lenses_per_degree)) x = nan;
-        return limit;
-    };
-    plot.series = {{"of the lens pitch", depths, bounded(table.columns[3].values)},
-                   {"of the panel's pixels", depths, bounded(table.columns[4].values)}};
+    plot.series = {{"of the lens pitch", depths, limits_to_plot(table.columns[3].values, at_lenses_per_degree)},
+                   {"of the panel's pixels", depths, limits_to_plot(table.columns[4].values, at_lenses_per_degree)}};
     const double z = g.content_depth_mm, at_content = std::min(by_lens(z), by_pixel(z));
     const FigureValue per_degree = cycles_per_degree(g, at_content, z, eye);
     result.add("resolution.at_the_lenses_per_mm", at_lenses);

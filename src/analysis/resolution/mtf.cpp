@@ -9,6 +9,7 @@
 #include "analysis/resolution/fringes.h"
 #include "analysis/resolution/mtf_colour.h"
 #include "analysis/resolution/mtf_resolution.h"
+#include "analysis/resolution/mtf_theory.h"
 #include "base/constants.h"
 
 #include <fmt/format.h>
@@ -218,14 +219,9 @@ void report(const Subject& s, const std::vector<double>& depths, const std::vect
         lens.values.push_back(finite(r.lens_limit_per_mm));
         pixel.values.push_back(finite(r.pixel_limit_per_mm));
     }
-    // That of the lenses has no bound at L, that of the pixels at the lenses: the plot shows them where they may limit.
-    const auto bounded = [&](std::vector<double> limits) {
-        for (double& limit : limits)
-            if (!(limit <= 4 * s.theory(0).lens_sampling_limit_per_mm)) limit = nan;
-        return limits;
-    };
-    plot.series.push_back({"lens sampling", depths, bounded(lens.values)});
-    plot.series.push_back({"pixel limit, g/2az", depths, bounded(pixel.values)});
+    const double at_lenses = s.theory(0).lens_sampling_limit_per_mm;
+    plot.series.push_back({"lens sampling", depths, limits_to_plot(lens.values, at_lenses)});
+    plot.series.push_back({"pixel limit, g/2az", depths, limits_to_plot(pixel.values, at_lenses)});
     const double middle = s.theory().central_depth_mm + s.geometry().rear_principal_mm - s.geometry().vertex_plane_mm;
     if (middle >= depths.front() && middle <= depths.back()) plot.marks.push_back({"central depth plane", middle});
     table.columns.push_back(std::move(lens));

@@ -49,6 +49,12 @@ double pixel_limit_per_mm(const Subject& s, const Direction& direction, double z
     return pixel > 0 ? 0.5 / pixel : infinity;
 }
 
+std::vector<double> limits_to_plot(std::vector<double> limits, double at_lenses) {
+    for (double& limit : limits)
+        if (!(limit <= 4 * at_lenses)) limit = nan;
+    return limits;
+}
+
 bool at_the_lenses(const Display& d, const Geometry& g, double z_mm) {
     return pixel_image_mm(d, g, z_mm) < 1e-6 * g.lattice.pitch[0];
 }

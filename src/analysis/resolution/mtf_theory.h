@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <vector>
 
 namespace lfdsim {
 
@@ -18,12 +19,16 @@ double pixel_image_mm(const Display&, const Geometry&, double z_mm);
 /// Whether a plane at this height above the panel is the lenses' own, where each of them shows only one point.
 bool at_the_lenses(const Display&, const Geometry&, double z_mm);
 
-/// Half a cycle per lens pitch, as an eye at an angle projects it into a plane z_mm from the panel.
+/// Half a cycle per jump from lens to lens, as an eye at an angle projects it into a plane z_mm from the panel.
 double lens_limit_per_mm(const Subject&, const Direction&, double z_mm, double angle_deg);
 
 /// Half a cycle per image of a panel pixel. Along the direction that is resolved its images follow each other as pixels do along
 /// the panel's rows or, where those are nearer to it, columns. Infinite in the lenses' own plane.
 double pixel_limit_per_mm(const Subject&, const Direction&, double z_mm);
+
+/// Those of such limits that a plot shows: NaN where one is above four times the lenses' limit in their own plane. The lenses'
+/// limit has no bound at L, the pixels' none at the lenses.
+std::vector<double> limits_to_plot(std::vector<double> limits, double at_lenses);
 
 /// The distance in a plane between a line of sight and the nodal line of the pixel that it sees: a sum of independent parts.
 struct Blur {
