@@ -34,9 +34,4 @@ class InputError : public std::runtime_error {
     }
 };
 
-/// Throws InputError at `where` if a name is empty; `wanted` is what it is to name.
-inline void require_name(const std::string& name, const std::string& where, const std::string& wanted) {
-    if (name.empty()) throw InputError(where, "the name is empty; give " + wanted);
-}
-
 }  // namespace lfdsim

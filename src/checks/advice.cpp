@@ -1,8 +1,10 @@
-// The order of the parts of advice(), and advice on the power and the size of the lenses. docs/model.md, "Advice".
+// The order of the parts of advice(), advice on the power and the size of the lenses, and on keys without effect. docs/model.md,
+// "Advice".
 
 #include "checks/advice.h"
 
 #include "checks/advice_parts.h"
+#include "display/keys.h"
 #include "geometry/resolve.h"
 
 #include <algorithm>
@@ -18,6 +20,7 @@ std::vector<std::string> advice(const Display& d, const Geometry& g, const Theor
     advise_on_diffuser(advised);
     advise_on_eye(advised);
     advise_on_scene(advised);
+    advise_on_idle_keys(advised);
     return std::move(advised.sentences);
 }
 
@@ -82,6 +85,20 @@ void advise_on_lenses(Advised& a) {
             "a lens covers {:.4f} panel pixels, its elemental image {:.4f}, neither a whole number: across the array this adds "
             "up to {:.2g} pixels",
             t.along[drifts].views, images(drifts), drift(drifts));
+}
+
+void advise_on_idle_keys(Advised& a) {
+    const Content& content = a.display.content;
+    if (a.display.panel.primary_widths_nm && a.display.render.wavelength_samples == 1)
+        a.say(
+            "panel.primary_widths_nm has no effect: each colour is traced in light of a single wavelength. Trace more of them "
+            "(--set render.wavelength_samples=7)");
+    if (content.pickup != PickupKind::inverse && !(content.inverse == Inverse{}))
+        a.say("[content.inverse] has no effect on the {} pick-up (--set content.pickup=inverse uses it)", word(content.pickup));
+    if ((content.pickup == PickupKind::nodal || content.pickup == PickupKind::traced) &&
+        content.pickup_rays != Content{}.pickup_rays)
+        a.say("content.pickup_rays has no effect on the {} pick-up (--set content.pickup=integrated uses it)",
+              word(content.pickup));
 }
 
 }  // namespace lfdsim

@@ -25,10 +25,11 @@ struct Advised {
     }
 };
 
-void advise_on_lenses(Advised&);    // their power and size
-void advise_on_layout(Advised&);    // array and panel
-void advise_on_diffuser(Advised&);  // dark bands, and too much of it
-void advise_on_eye(Advised&);       // the eye's position, and that for which elemental images are made
-void advise_on_scene(Advised&);     // the scene's position, size and depth of field
+void advise_on_lenses(Advised&);     // their power and size
+void advise_on_layout(Advised&);     // array and panel
+void advise_on_diffuser(Advised&);   // dark bands, and too much of it
+void advise_on_eye(Advised&);        // the eye's position, and that for which elemental images are made
+void advise_on_scene(Advised&);      // the scene's position, size and depth of field
+void advise_on_idle_keys(Advised&);  // changed keys that another key's value leaves without effect
 
 }  // namespace lfdsim

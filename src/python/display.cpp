@@ -152,7 +152,7 @@ Display restored(const State& of) {
 
 /// The display with a model in place of its content. Throws InputError if the name is empty.
 Display with_model(Display display, const std::string& model) {
-    require_name(model, "model", "a mesh file or built-in:spheres");
+    if (model.empty()) throw InputError("model", "the name is empty; give a mesh file or built-in:spheres");
     display.content.model = model;
     display.content.objects.clear();
     return placed(std::move(display));

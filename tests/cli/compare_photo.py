@@ -237,7 +237,7 @@ for name, arguments, words in [
     ("a fit without corners", ["compare", "view.png", "view.png", "--fit-corners"], "--fit-corners: is for a photograph"),
     ("a blur without corners", ["compare", "view.png", "view.png", "--fit-blur"], "--fit-blur: is for a photograph"),
     ("an overlay nowhere", [*start, *four, "-o", "none/overlay.png"], "none"),
-    ("an overlay without a name", [*start, *four, "-o", ""], "--overlay: the name is empty"),
+    ("an overlay without a name", [*start, *four, "-o", ""], "--overlay: is empty"),
     ("a difference of another kind", [*start, *four, "--difference", "difference.tiff"], ".png, .exr and .npy"),
 ]:
     checks.refused(program, name, arguments, words)

@@ -43,6 +43,17 @@ for kind, number in [("npy", signal.SIGINT), ("png", signal.SIGHUP), ("exr", sig
     else:
         checks.that(b"incomplete" in (program.folder / f"out.{kind}").read_bytes(), f"{kind}: the picture is not marked")
 
+# A picture that was there is kept as it was.
+whole = (program.folder / "white.png").read_bytes()
+(program.folder / "seen.png").write_bytes(whole)
+process = program.start(f"{LONG} --samples 300 -o seen.png")
+begun(process)
+process.send_signal(signal.SIGINT)
+out, err = process.communicate(timeout=120)
+checks.that(process.returncode == 130 and "seen.incomplete.png contains the completed part" in err, f"over a picture: {process.returncode} {err}")
+checks.that((program.folder / "seen.png").read_bytes() == whole, "an interrupted run replaced a picture")
+checks.that(b"incomplete" in (program.folder / "seen.incomplete.png").read_bytes(), "over a picture: what was made is not kept")
+
 # Used as a panel image, the kept picture says so; a complete one does not.
 shown = ["render", "tiny.toml", "--set", "panel.pixels=[1280, 720]", "--samples", "1", "-o", "view.png", "--json", "--progress", "none"]
 program.must(["eia", "tiny.toml", "--set", "panel.pixels=[1280, 720]", "--pattern", "white", "-o", "whole.png"])
@@ -58,8 +69,8 @@ process.communicate(timeout=120)
 checks.that(process.returncode == 0, f"SIGHUP under nohup: exit code {process.returncode}, wanted 0")
 
 # The most samples: a single pixel takes many seconds.
-for command in ["render tiny.toml --panel-image white.png --estimator point", "photo tiny.toml --set camera.pupil_diameter_mm=4"]:
-    process = program.start(f"{command} --size 640x360 --samples 16777216 -o most.png --progress none")
+for k, command in enumerate(["render tiny.toml --panel-image white.png --estimator point", "photo tiny.toml --set camera.pupil_diameter_mm=4"]):
+    process = program.start(f"{command} --size 640x360 --samples 16777216 -o most{k}.png --progress none")
     time.sleep(1)
     sent = time.monotonic()
     process.send_signal(signal.SIGINT)
@@ -68,7 +79,7 @@ for command in ["render tiny.toml --panel-image white.png --estimator point", "p
     except subprocess.TimeoutExpired:
         process.kill()
         out, err = process.communicate()
-    checks.that(process.returncode == 130 and "most.png" in err and "marked incomplete" in err,
+    checks.that(process.returncode == 130 and f"most{k}.png" in err and "marked incomplete" in err,
                 f"{command}: exit code {process.returncode} after {time.monotonic() - sent:.1f} s: {err}")
 
 # A command that keeps nothing says that it was interrupted, too.

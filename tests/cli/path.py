@@ -162,8 +162,8 @@ for name, bad, words in BAD:
     checks.refused(program, name, f"{SHOWN} --path bad.json -o none", words)
 CASES = [  # name, arguments, words of the message
     ("no such path", f"{SHOWN} --path none.json -o none", "none.json: there is no such file"),
-    ("path without name", [*SHOWN.split(), "--path", "", "-o", "none"], "--path: the name is empty"),
-    ("folder without name", [*SHOWN.split(), "--path", "path.json", "-o", ""], "--output: the name is empty"),
+    ("path without name", [*SHOWN.split(), "--path", "", "-o", "none"], "--path: is empty"),
+    ("folder without name", [*SHOWN.split(), "--path", "path.json", "-o", ""], "--output: is empty"),
     ("folder that is a file", f"{SHOWN} --path path.json -o panel.png", "panel.png: is not a folder"),
     ("folder that cannot be made", f"{SHOWN} --path path.json -o /proc/none", "/proc/none"),
     ("two cameras", f"{SHOWN} --path path.json --camera-mm 0,0,400 -o none", "give one of them"),

@@ -10,14 +10,14 @@ if(TARGET _core)
   set_tests_properties(python.minimal PROPERTIES ENVIRONMENT "${environment}" PASS_REGULAR_EXPRESSION "SSIM.: 0\\.9")
   foreach(script analysis fuzz)
     add_test(NAME python.${script}_full COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/${script}.py)
-    set_tests_properties(python.${script}_full PROPERTIES ENVIRONMENT "${environment};LFDSIM_FULL=1" TIMEOUT 900 LABELS full)
+    set_tests_properties(python.${script}_full PROPERTIES ENVIRONMENT "${environment};LFDSIM_FULL=1" TIMEOUT 3600 LABELS full)
   endforeach()
   add_test(NAME python.typed_full COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/typed.py)
   set_tests_properties(python.typed_full PROPERTIES ENVIRONMENT "${environment}" TIMEOUT 300 LABELS full SKIP_RETURN_CODE 77)
   # Asks PyPI for what runs notebooks.
   add_test(NAME python.notebooks_full
     COMMAND ${LFDSIM_PYTHON_INTERPRETER} ${CMAKE_CURRENT_LIST_DIR}/notebooks.py ${CMAKE_BINARY_DIR}/notebook-tools)
-  set_tests_properties(python.notebooks_full PROPERTIES ENVIRONMENT "${environment}" TIMEOUT 1800 LABELS full SKIP_RETURN_CODE 77)
+  set_tests_properties(python.notebooks_full PROPERTIES ENVIRONMENT "${environment}" TIMEOUT 3600 LABELS full SKIP_RETURN_CODE 77)
   # Asks PyPI for what builds a wheel; compiles all of the program once more.
   add_test(NAME python.wheel_full COMMAND ${CMAKE_CURRENT_LIST_DIR}/wheel.sh ${PROJECT_SOURCE_DIR} ${LFDSIM_PYTHON_INTERPRETER})
   set_tests_properties(python.wheel_full PROPERTIES TIMEOUT 3600 RUN_SERIAL ON LABELS full SKIP_RETURN_CODE 77)

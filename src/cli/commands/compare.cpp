@@ -39,7 +39,7 @@ void run(const CompareArguments& args) {
     Faults faults;
     const auto read = [&](const char* argument, const std::string& path, Image& image) {
         faults.of([&] {
-            check_input(argument, path);
+            remember_input(argument, path);
             image = read_image(path, encoding);
             warn_of_colours(path, encoding);
             warn_above_white(path, image);

@@ -66,10 +66,10 @@ void PhotoOptions::run(const std::string& view_path, const std::string& photo_pa
     faults.of([&] { photo.encoding = encoding_of(encoding); });
     faults.of([&] { photo.corners = read_corners(corners_); });
     if (view_corners_.given()) faults.of([&] { view_corners = read_corners(view_corners_); });
-    faults.of([&] { check_input("A", view_path); });
-    faults.of([&] { check_input("B", photo_path); });
+    faults.of([&] { remember_input("A", view_path); });
+    faults.of([&] { remember_input("B", photo_path); });
     for (const Option& output : {difference_, overlay_})
-        if (output.given()) faults.of([&] { check_output(output.text(), output.name()); });
+        if (output.given()) faults.of([&] { check_output(output.text()); });
     if (!overlay_.empty() && overlay_.text() == difference_.text())
         faults.of([] { throw InputError("--overlay, --difference", "name the same file; give two names"); });
     faults.report();

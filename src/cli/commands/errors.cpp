@@ -24,7 +24,6 @@ struct ErrorsArguments {
 void run(const ErrorsArguments& args) {
     const Display display = args.display.read();
     const std::string& output = args.output.text();
-    require_name(output, "--output", "the file to write");
     if (std::filesystem::path(output).extension() != ".csv")
         throw InputError("--output", fmt::format("{}: a table's name ends in .csv", output));
     guard_output(output);

@@ -131,10 +131,7 @@ void run(const ExportArguments& args) {
     faults.of([&] { options = options_of(args); });
     faults.of([&] { args.model.apply(display); });
     faults.of([&] { args.work.check(); });
-    faults.of([&] {
-        require_name(args.folder.text(), "--output", "a folder for the scene");
-        check_folder(args.folder.text());
-    });
+    faults.of([&] { check_folder(args.folder.text()); });
     faults.of([&] { check_effects(args.command); });
     faults.report();
 

@@ -115,7 +115,7 @@ ImportRequest lens_request(const ImportArguments& args) {
     read_positive(args.distance, request.distance_mm, faults);
     faults.of(args.pixels, [&] { request.pixels = args.pixels.size(); });
     for (const std::string& file : args.catalogues.texts()) {
-        check_input("--catalogue", file);
+        remember_input("--catalogue", file);
         faults.of([&] { request.catalogues.push_back(read_agf(file)); });
     }
     for (const std::string& text : args.glasses.texts())
@@ -148,7 +148,7 @@ std::string lenticular_in_words(const Imported& made) {
 
 void run(const ImportArguments& args) {
     const std::string& path = args.file.text();
-    check_input("FILE", path);
+    remember_input("FILE", path);
     Faults faults;
     std::optional<std::variant<DrawnLens, Calibration>> file;
     ImportRequest for_lens;

@@ -55,7 +55,6 @@ void PathOptions::check(const OutputOptions& output) const {
         faults.of([&] { output.check_bits("frame." + kind_.text()); });
         faults.of([&] {
             std::error_code error;
-            require_name(output.path(), "--output", "a folder for the frames");
             if (fs::exists(output.path(), error) && !fs::is_directory(output.path(), error))
                 throw InputError(output.path(), "is not a folder; give one for the frames of --path");
         });
@@ -65,7 +64,6 @@ void PathOptions::check(const OutputOptions& output) const {
 }
 
 CameraPath PathOptions::read() const {
-    require_name(path_.text(), "--path", "a camera path");
     remember_input("the camera path", path_.text());
     return read_path(path_.text());
 }

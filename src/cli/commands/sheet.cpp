@@ -34,7 +34,7 @@ void run(const SheetArguments& args) {
     std::int64_t columns = 0, width = 0;
     faults.of([&] { columns = args.columns.whole_number(1, 100); });
     faults.of([&] { width = args.width_px.whole_number(16, 16384); });
-    for (const std::string& path : images) faults.of([&] { check_input("IMAGE", path); });
+    for (const std::string& path : images) faults.of([&] { remember_input("IMAGE", path); });
     faults.of([&] { check_output(output); });
     if (!labels.empty() && labels.size() != images.size())
         faults.of([&] {

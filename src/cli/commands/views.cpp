@@ -112,7 +112,6 @@ Target target_of(const ViewsArguments& args, const Display& display) {
         });
         faults.of([&] { args.output.check_bits("view." + args.kind.text()); });
         faults.of([&] {
-            require_name(path.string(), "--output", "a folder for the views, or a quilt's name");
             check_folder(path);
             check_resume(args.resume, args.kind.text());
         });

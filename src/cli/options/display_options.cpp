@@ -130,7 +130,6 @@ std::vector<std::string> DisplayOptions::overrides() const {
 }
 
 Display DisplayOptions::read(const std::string& path, const std::string& compared) const {
-    require_name(path, "DISPLAY.toml", "the description of a display");
     remember_input("the description", path);
     Faults faults;
     auto [overrides, written] = all_overrides(faults);

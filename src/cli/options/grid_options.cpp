@@ -86,7 +86,6 @@ Json grid_json(const ViewGrid& grid) {
 
 void ViewsOption::check() {
     if (!given()) return;
-    require_name(views_.text(), "--views", "a folder of views or a quilt");
     wish_ = grid_.read();
     source_ = find_views(views_.text());
     if (flip_) flip(source_);

@@ -13,7 +13,7 @@
 namespace lfdsim::cli {
 
 void PanelImageOption::check() const {
-    if (given()) check_input(image_.name(), path());
+    if (given()) remember_input(image_.name(), path());
 }
 
 bool PanelImageOption::warn(const Display& display) const {
@@ -38,7 +38,6 @@ PanelImageOption::Read PanelImageOption::read(const Display& display, Job& job) 
 
 void ModelOption::apply(Display& display) const {
     if (!given()) return;
-    require_name(path(), "--model", "a mesh file or built-in:spheres");
     remember_input("the model", path());
     display.content.model = path();
     display.content.objects.clear();

@@ -171,7 +171,7 @@ void MappingOption::check(const std::string& output) const {
     const fs::path ending = fs::path(path()).extension();
     if (ending != ".npy" && ending != ".exr")
         throw InputError(mapping_.name(), fmt::format("{}: the name must end in .npy or .exr", path()));
-    check_output(path(), mapping_.name());
+    check_output(path());
     // The two other files are those of an earlier run if the .json says that it is of this file.
     const bool own = is_sidecar(beside(path(), ".json"), fs::path(path()).filename());
     for (const char* other : {".json", ".svg"}) check_companion(beside(path(), other), own, replace_);

@@ -12,7 +12,6 @@
 namespace lfdsim::cli {
 
 void NewDescription::check() const {
-    require_name(path(), "--output", "the file to write");
     const std::filesystem::path file = path();
     guard_output(file);
     check_replaceable(file);

@@ -54,13 +54,7 @@ void write_text(const std::filesystem::path& path, std::string_view text) {
     write_file(path, text);
 }
 
-void check_input(const std::string& argument, const std::string& path) {
-    require_name(path, argument, "the file to read");
-    remember_input(argument, path);
-}
-
-void check_output(const std::string& path, const std::string& option) {
-    require_name(path, option, "the file to write");
+void check_output(const std::string& path) {
     guard_output(path);
     check_writable(path);
 }
@@ -84,12 +78,20 @@ void OutputOptions::check_bits(const std::filesystem::path& name) const {
 Json OutputOptions::write(const Image& image, Encoding encoding, const Display& display, Metadata about, bool complete,
                           Progress& progress, std::vector<ImageLayer> layers, const std::string& content) const {
     progress.end();
-    if (!complete) about[incomplete_mark] = "true";
-    const CutOff cut = save(path(), image, encoding, display, std::move(about), std::move(layers), &progress);
+    std::filesystem::path file = path();
+    if (!complete) {
+        about[incomplete_mark] = "true";
+        if (std::filesystem::exists(file))  // the picture that is there may be complete: it stays
+            file.replace_filename(file.stem().string() + ".incomplete" + file.extension().string());
+    }
+    const CutOff cut = save(file, image, encoding, display, std::move(about), std::move(layers), &progress);
     progress.end();
     Json more = warn(cut);
-    if (!complete) end_incomplete(path(), content);
-    return more;
+    if (complete) return more;
+    spdlog::warn("interrupted; {} contains {}{}", file.string(),
+                 content.empty() ? "the completed part, the rest is black" : content,
+                 keeps_metadata(file) ? ", and is marked incomplete" : "; a file of this kind cannot say that it is incomplete");
+    throw Interrupted{};
 }
 
 CutOff OutputOptions::save(const std::filesystem::path& path, const Image& image, Encoding encoding, const Display& display,
@@ -121,12 +123,6 @@ Json warn_of_cut_off(const std::string& what, const CutOff& cut, const std::stri
 
 void end_interrupted() {
     spdlog::warn("interrupted; nothing was complete, so nothing was written");
-    throw Interrupted{};
-}
-
-void end_incomplete(const std::string& picture, const std::string& content) {
-    spdlog::warn("interrupted; {} contains {}{}", picture, content.empty() ? "the completed part, the rest is black" : content,
-                 keeps_metadata(picture) ? ", and is marked incomplete" : "; a file of this kind cannot say that it is incomplete");
     throw Interrupted{};
 }
 

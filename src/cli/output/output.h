@@ -37,13 +37,9 @@ inline constexpr const char* software = "lfdsim " LFDSIM_VERSION;
 /// The remedy for pictures whose light is cut off.
 inline constexpr const char* keeps_light = "an .exr or .npy keeps their light";
 
-/// Remembers the file that an argument names as one that no output may replace. Throws InputError that names the argument if no
-/// file is named.
-void check_input(const std::string& argument, const std::string& path);
-
 /// Checks an output, before long work and after the inputs are known. From here on a signal removes its partial file. Throws
-/// InputError unless a picture can be written at `path`, which the option gave, without replacing an input.
-void check_output(const std::string& path, const std::string& option = "--output");
+/// InputError unless a picture can be written at `path` without replacing an input.
+void check_output(const std::string& path);
 
 /// The options -o and --bits.
 class OutputOptions {
@@ -58,7 +54,8 @@ class OutputOptions {
     void check_bits(const std::filesystem::path& name) const;
     /// Saves the picture with `about`, the command line, version and display, and ends the progress of the work before. A picture
     /// that is not complete is marked as such, and Interrupted is then thrown; `content` says what it contains, if not its
-    /// completed part. Layers are for the formats that keep them. Warns of light that is cut off; returns it as warn() does.
+    /// completed part. It replaces no picture: beside an existing "out.png" its name is "out.incomplete.png". Layers are for the
+    /// formats that keep them. Warns of light that is cut off; returns it as warn() does.
     Json write(const Image&, Encoding, const Display&, Metadata about, bool complete, Progress&, std::vector<ImageLayer> = {},
                const std::string& content = {}) const;
     /// Saves a picture as write() does, at another path; a large one is a stage of the job. Returns what its file cuts off, and
@@ -80,8 +77,6 @@ Json warn_of_cut_off(const std::string& what, const CutOff&, const std::string& 
 
 /// Logs that the work was stopped and nothing was saved. Throws Interrupted.
 [[noreturn]] void end_interrupted();
-/// Logs that the work was stopped and what the saved picture contains: by default its completed part. Throws Interrupted.
-[[noreturn]] void end_incomplete(const std::string& picture, const std::string& content = {});
 /// Logs that the work was stopped, what its folder contains ("3 of 9 views"), and whether a run with --resume continues it. Throws
 /// Interrupted.
 [[noreturn]] void end_interrupted(const std::filesystem::path& folder, const std::string& finished, bool resumable = true);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 
 namespace lfdsim::cli {
 namespace {
@@ -37,12 +38,18 @@ void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
         const CLI::Option* option = word->starts_with("--") ? command.get_option_no_throw(*word) : nullptr;
         if (!option || word + 1 == words.end()) continue;
         const std::string form = option->get_type_name();
-        if (form == "KEY=VALUE" && !word[1].starts_with("-") && word[1].find('=') == std::string::npos)
+        if (form == "KEY=VALUE" && !word[1].empty() && !word[1].starts_with("-") && word[1].find('=') == std::string::npos)
             throw setting_error(*word, word[1]);
         if (option->get_expected_max() > 1) continue;
         if (const auto numbers = spaced_numbers(form, {word + 1, words.end()}); !numbers.empty())
             throw spaced_error(*word, form, numbers);
     }
+}
+
+// Refuses an empty text, such as that of a shell's variable without a value: no option takes one.
+std::function<std::string(const std::string&)> not_empty(const std::string& form) {
+    const std::string words = "is empty; give " + (form.empty() ? "a name" : form);
+    return [words](const std::string& text) { return text.empty() ? words : std::string(); };
 }
 
 }  // namespace
@@ -77,14 +84,14 @@ List List::expected(int least, int most) const {
 
 Option Command::option(const std::string& names, const std::string& form, const std::string& help) const {
     Option option;
-    option.option_ = app_->add_option(names, *option.text_, help)->type_name(form);
+    option.option_ = app_->add_option(names, *option.text_, help)->type_name(form)->check(not_empty(form));
     option.name_ = names.substr(names.find(',') + 1);
     option.form_ = form;
     return option;
 }
 List Command::list(const std::string& names, const std::string& form, const std::string& help) const {
     List list;
-    list.option_ = app_->add_option(names, *list.texts_, help)->type_name(form);
+    list.option_ = app_->add_option(names, *list.texts_, help)->type_name(form)->check(not_empty(form));
     list.name_ = names.substr(names.find(',') + 1);
     return list;
 }

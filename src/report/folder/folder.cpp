@@ -78,7 +78,6 @@ Json to_json(const std::vector<Finding>& findings) {
 
 ResultFolder::ResultFolder(fs::path path, Json settings) : path_(std::move(path)), settings_(std::move(settings)) {
     std::error_code error;
-    require_name(path_.string(), "--output", "a folder");
     fs::create_directories(path_, error);
     if (!fs::is_directory(path_)) throw InputError(path_.string(), "is not a folder and cannot be made one");
     check_replaceable(path_ / report_name);
