@@ -83,7 +83,7 @@ void advise_on_lenses(Advised& a) {
     else if (drift(drifts) > 0.5 && !strips)  // which lean so that their views are not whole numbers
         a.say(
             "a lens covers {:.4f} panel pixels, its elemental image {:.4f}, neither a whole number: across the array this adds "
-            "up to {:.2g} pixels",
+            "up to {:.4g} pixels",
             t.along[drifts].views, images(drifts), drift(drifts));
 }
 

@@ -113,8 +113,7 @@ std::shared_ptr<Measured> analyze(const Display& display, const std::string& nam
     choose_device(options.device, "");
     auto made = std::make_shared<Measured>(Measured{&measure, display, std::move(options), {}, 0, {}});
     run(progress, [&](Job& job) {
-        if (auto problem = refusal(measure, display)) throw InputError(std::vector{std::move(*problem)});
-        require_panel_memory(display);
+        require_needs(measure, display);
         std::optional<ContentScene> scene;
         if (measure.needs.scene) {
             const Geometry geometry = resolve(display);

@@ -40,14 +40,14 @@ code, _, err = program.run("photo tiny.toml --model bare.obj -o bare.png")
 checks.that(code == 0 and err.count("left out, shown grey") == 6 and "35 more textures left out" in err, f"40 missing textures: {code} {err}")
 
 # What the reader of 3MF passes over is said; what it cannot take is not called damaged.
-def write_3mf(name, resources, build, compression=zipfile.ZIP_DEFLATED):
+def write_3mf(name, resources, build, compression=zipfile.ZIP_DEFLATED, of_model=""):
     with zipfile.ZipFile(program.folder / name, "w", compression) as archive:
         archive.writestr("_rels/.rels", '<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
                          '<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
                          '</Relationships>')
         archive.writestr("3D/3dmodel.model", '<?xml version="1.0"?><model unit="millimeter" '
                          'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" '
-                         'xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02">'
+                         f'xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02" {of_model}>'
                          f'<resources>{resources}</resources><build>{build}</build></model>')
 
 
@@ -67,6 +67,20 @@ for name, resources, note in [("plain.3mf", square_3mf(""), ""), ("red.3mf", red
     write_3mf(name, resources, item)
     code, _, err = program.run(f"photo tiny.toml --model {name} -o 3mf.png")
     checks.that(code == 0 and note in err and ("warning" in err) == bool(note), f"{name}: {code} {err}")
+# A required extension is refused by its name, unless it is read, or what it adds is noted.
+for of_model, refused in [('requiredextensions="m"', ""), ('xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06" requiredextensions="p m"', ""),
+                          ('xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"\n requiredextensions="m b"', "beamlattice"),
+                          ("xmlns:zz='http://example.com/zz' requiredextensions='zz'", "http://example.com/zz"), ('requiredextensions=" q "', "extension q,")]:
+    write_3mf("required.3mf", square_3mf(""), item, of_model=of_model)
+    if refused:
+        checks.refused(program, of_model, "photo tiny.toml --model required.3mf -o 3mf.png", refused, "which is not read")
+    else:
+        program.must("photo tiny.toml --model required.3mf -o 3mf.png")
+# Numbers of OBJ that begin with a point.
+for name, zero in ("point.obj", ""), ("digit.obj", "0"):
+    (program.folder / name).write_text(f"v -{zero}.5 -{zero}.5 {zero}.0\nv {zero}.5 -{zero}.5 0\nv +{zero}.5 {zero}.5 0\nvt {zero}.5 {zero}.25\nf 1/1 2/1 3/1\n")
+    program.must(f"photo tiny.toml --model {name} --size 60x40 -o {name}.npy")
+checks.that((program.folder / "point.obj.npy").read_bytes() == (program.folder / "digit.obj.npy").read_bytes(), "OBJ: .5 is not 0.5")
 # Hundreds of thousands of triangles before the only one with a material are searched once.
 strip = range(200000)
 corners, triangles = "".join(f'<vertex x="{i}" y="0" z="{i % 2}"/>' for i in strip), "".join(f'<triangle v1="{i}" v2="{i + 1}" v3="{i + 2}"/>' for i in strip[:-2])

@@ -75,6 +75,10 @@ for what in [resource.RLIMIT_AS, resource.RLIMIT_DATA]:
     for command in ["render", "eia"]:
         code, said = limited(f"{command} tiny.toml {large} -o out.png", (what, 1 << 30))
         checks.that(code == 2 and needs.search(said), f"limit {what}, {command}: {code} {said}")
+for measure, makes_a_panel in [("spot", False), ("zone", False), ("mtf", True)]:  # a measure asks for what it needs itself
+    code, said = limited(f"analyze {measure} tiny.toml --size 40x24 --set panel.pixels=[12000,8000] panel.pixel_pitch_mm=0.001 array.count=none -o of_{measure}",
+                         (resource.RLIMIT_AS, 1 << 30))
+    checks.that(code == 2 and needs.search(said) if makes_a_panel else code == 0, f"little memory, analyze {measure}: {code} {said}")
 code, said = limited("render tiny.toml -o out.png --pattern white --set array.count=[20000,20000] array.pitch_mm=0.01 errors.decenter_sd_mm=0.0001", (resource.RLIMIT_AS, 1 << 30))
 checks.that(code == 2, f"errors of many lenses: {code} {said}")
 

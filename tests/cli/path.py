@@ -69,6 +69,7 @@ checks.that(list(times("still")) == ["0000.exr"] and b"error.R" in (folder / "st
 GO_ON = f"{SHOWN} --path path.json -o again --resume"
 program.must(f"{SHOWN} --path path.json -o again")
 first = times("again")
+checks.refused(program, "the same command again", f"{SHOWN} --path path.json -o again", "again: contains 5 of 5 pictures", "--resume", "--replace")
 (folder / "again/0002.png").unlink()
 (folder / "again/0003.png").write_text("no picture")
 program.must(GO_ON)

@@ -34,6 +34,7 @@ for name, arguments, words in [
     ("measures behind the display", "analyze tiny.toml fov,mtf", "lfdsim analyze fov,mtf tiny.toml"),
     ("peer behind the display", "export tiny.toml pov -o scene", "lfdsim export pov tiny.toml"),
     ("spaces for commas", "render tiny.toml --camera-mm 40 0 599 -o out.png", "--camera-mm 40,0,599"),
+    ("too few with spaces", "render tiny.toml --camera-mm 40 0 -o out.png", "without spaces: --camera-mm X,Y,Z"),
     ("spaces and commas, before the display", "render --target-mm 40, 0, -5 tiny.toml -o out.png", "--target-mm 40,0,-5"),
     ("spaces in steps", "analyze fov tiny.toml --angles-deg -30 30 1 -o out", "--angles-deg -30,30,1"),
     ("spaces in a crop", "compare panel.png panel.png --crop 0 0 5 5", "--crop 0,0,5,5"),

@@ -209,8 +209,9 @@ for arguments, doubted in (("near", False), ("mirrored", True)):
 
 # Of the display: the picture of a camera that looks straight at it, twice as fine, averaged over each pixel; aside by shares of pixels.
 program.must(f"eia tiny.toml --model pyramid.obj -o shown.npy {QUIET}")
-program.must(f"views tiny.toml --of display --panel-image shown.npy --grid 3x1 --view-size 60x40 --focus-width-mm 45 --focus-depth-mm 18 "
-             f"--camera-distance-mm 360 --baseline-mm 31.7 --views-as npy -o of_display {QUIET}")
+said = program.must(f"views tiny.toml --of display --panel-image shown.npy --grid 3x1 --view-size 60x40 --focus-width-mm 45 --focus-depth-mm 18 "
+                    f"--camera-distance-mm 360 --baseline-mm 31.7 --views-as npy -o of_display --json {QUIET}")
+checks.that({"estimator", "points_share", "kernel"} <= json.loads(said).keys(), f"views of the display: how they were made is not said: {said}")
 vertex_plane = json.loads(program.must("check tiny.toml --json"))["geometry"]["vertex_plane_mm"]
 focus, fine = vertex_plane + 18, 45 / 60 / 2  # heights and pixels in mm
 for k, x in enumerate([-31.7, 0, 31.7]):

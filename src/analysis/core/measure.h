@@ -11,8 +11,9 @@ namespace lfdsim {
 
 /// The requirements of a measure.
 struct MeasureNeeds {
-    bool scene = false;         // a scene that the display shows
-    bool point_images = false;  // images of points by each lens, which all but pinholes form
+    bool scene = false;          // a scene that the display shows
+    bool panel_picture = false;  // the picture of the whole panel in memory
+    bool point_images = false;   // images of points by each lens, which all but pinholes form
 };
 
 /// A measure of `lfdsim analyze`.
@@ -28,8 +29,8 @@ struct Measure {
     MeasureNeeds needs = {};
 };
 
-/// Returns why a display lacks what a measure needs; nothing if it does not.
-std::optional<Problem> refusal(const Measure&, const Display&);
+/// Throws InputError unless the display, and the free memory, have what the measure needs.
+void require_needs(const Measure&, const Display&);
 
 /// Returns all measures, in the order of the report.
 std::span<const Measure> measures();

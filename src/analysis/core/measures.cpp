@@ -11,14 +11,16 @@
 #include "analysis/spots/spot.h"
 #include "analysis/uniformity/uniformity.h"
 #include "analysis/zone/zone.h"
+#include "engine/devices/memory.h"
 
 #include <fmt/format.h>
 
 namespace lfdsim {
 namespace {
 
-constexpr MeasureNeeds scene{.scene = true}, point_images{.point_images = true},
-    scene_and_images{.scene = true, .point_images = true};
+constexpr MeasureNeeds scene{.scene = true, .panel_picture = true}, point_images{.point_images = true},
+    panel_and_images{.panel_picture = true, .point_images = true},
+    all_needs{.scene = true, .panel_picture = true, .point_images = true};
 
 constexpr Measure all[] = {
     {"components", "Components", "Pictures through the lens array alone, through the diffuser alone, and of the whole display.",
@@ -28,7 +30,7 @@ constexpr Measure all[] = {
     {"fov", "Field of view", "The range of angles from which the display shows the scene correctly, horizontally and vertically.",
      "SSIM thresholds of the 2019 paper; Wang et al. 2004 for SSIM; theory 2 atan(p / 2g)", fov_steps, measure_fov, scene},
     {"dof", "Depth of field", "The range of depths, from the lenses, in which a scene is shown sharply.",
-     "SSIM thresholds of the 2019 paper; spot sizes by ray tracing; paraxial theory", dof_steps, measure_dof, scene_and_images},
+     "SSIM thresholds of the 2019 paper; spot sizes by ray tracing; paraxial theory", dof_steps, measure_dof, all_needs},
     {"zone", "Viewing zone",
      "The region from which every lens of the screen shows its own elemental image, not a neighbouring lens's.",
      "rays traced from viewers' positions; paraxial theory", zone_steps, measure_zone},
@@ -36,7 +38,7 @@ constexpr Measure all[] = {
      "Woods 2012, IEC 62629-22-1, IDMS: 100 (leak - black) / (signal - black)", crosstalk_steps, measure_crosstalk},
     {"mtf", "Resolution", "The finest detail that the display shows, by depth and viewing angle.",
      "slanted edges after ISO 12233; theory: image of a panel pixel, paraxial spot and diffuser", mtf_steps, measure_mtf,
-     point_images},
+     panel_and_images},
     {"uniformity", "Uniformity and light",
      "The uniformity of a white screen over its area and over viewing angle, and the light efficiency.",
      "100 Lmin / Lmax; Michelson contrast; radiance theorem", uniformity_steps, measure_uniformity},
@@ -50,11 +52,11 @@ constexpr Measure all[] = {
 
 std::span<const Measure> measures() { return all; }
 
-std::optional<Problem> refusal(const Measure& m, const Display& d) {
+void require_needs(const Measure& m, const Display& d) {
     if (m.needs.point_images && d.lens.type() == LensType::pinhole)
-        return Problem{"lens.type",
-                       fmt::format("is \"pinhole\", which forms no image: there is nothing for {} to measure", m.name)};
-    return {};
+        throw InputError("lens.type",
+                         fmt::format("is \"pinhole\", which forms no image: there is nothing for {} to measure", m.name));
+    if (m.needs.panel_picture) require_panel_memory(d);
 }
 
 const Measure& measure_named(std::string_view name) {

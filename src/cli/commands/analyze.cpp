@@ -145,7 +145,7 @@ struct Analysis {
     void one(const Measure& m, Progress& progress) {
         try {
             const auto start = std::chrono::steady_clock::now();
-            if (auto problem = refusal(m, subject.display())) throw InputError(std::vector{std::move(*problem)});
+            require_needs(m, subject.display());
             const Result result = m.run(subject, progress);
             folder.write(m, result, seconds_since(start));
         } catch (const InputError& e) {  // this measure does not suit the display or the options; others may
@@ -214,7 +214,6 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
             if (!variant.name.empty())
                 display.name =
                     fmt::format("{}-{}", display.name.empty() ? file_name(request.paths[n]) : display.name, variant.name);
-            require_panel_memory(display);
             args.model.apply(display);
         });
     faults.of([&] { args.work.check(); });

@@ -207,6 +207,11 @@ class ViewsMaker {
         options.device = device_;
         Rendering r = grid_view(grid_camera(display_, geometry_, grid_, column, row, target_.width, target_.height), *panel_,
                                 target_.width, target_.height, options, job);
+        if (const double error = r.measured_error.value_or(0); error >= largest_error_) {  // the view that is reported
+            largest_error_ = error;
+            how_ = "; " + how_made(r);
+            how_json_ = how_made_json(r);
+        }
         return {std::move(r.image), r.complete, r.samples, 0, r.seconds};
     }
     /// The depth map of a view of the content.
@@ -214,6 +219,8 @@ class ViewsMaker {
         return scene_view_depth(*scene_, geometry_, grid_, column, row, making(), job);
     }
     const PanelTexels& light() const { return light_; }  // that views of the display show
+    const std::string& how() const { return how_; }      // that view of the display was rendered whose error is the largest
+    const Json& how_json() const { return how_json_; }
     const std::vector<std::string>& files() const { return scene_ ? scene_->files() : light_.files; }
 
   private:
@@ -229,6 +236,9 @@ class ViewsMaker {
     std::optional<ContentScene> scene_;
     PanelTexels light_;
     std::optional<SummedPanel> panel_;
+    double largest_error_ = 0;
+    std::string how_;
+    Json how_json_ = Json::object();
 };
 
 /// Adds the rays and seconds of a view to those of all.
@@ -343,9 +353,10 @@ void run(const ViewsArguments& args) {
     Json more{{"of", args.of_what.text()}, {"views", grid_json(grid)}};
     more.update(cut_off);
     more.update(maker.light().made);
+    more.update(maker.how_json());
     print_made(PictureMade{args.output.path(), made.image.width, made.image.height, maker.of_display() ? "samples" : "rays",
                            made.rays, made.seconds},
-               args.work.json(), "; " + grid_text(grid) + maker.light().text, more);
+               args.work.json(), "; " + grid_text(grid) + maker.how() + maker.light().text, more);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ std::string value_text(const Json& values, const std::string& unit) {
     std::string text;
     for (const Json& x : values)
         text += (text.empty() ? "" : " .. ") + (x.is_null()     ? "not found"
-                                                : x.is_number() ? fmt::format("{:.4g}", x.get<double>())
+                                                : x.is_number() ? digits_of(x.get<double>())
                                                                 : x.get<std::string>());
     return text + (unit.empty() ? "" : " " + unit);
 }
@@ -28,8 +28,9 @@ std::string table_of(const Json& measured) {
     for (const Json& f : report.at("findings")) {
         const std::string unit = f.at("unit"), theory = value_text(f.at("theory"), unit);
         const Json& values = f.at("measured");
-        text += fmt::format("  {:<58} {:<26}{}\n", f.at("what").get<std::string>(),
-                            value_text(values, unit) + error_text(f.at("error")), theory.empty() ? "" : "  theory " + theory);
+        text +=
+            fmt::format("  {:<58} {:<26}{}\n", f.at("what").get<std::string>(),
+                        value_text(values, unit) + error_text(f.at("error"), values), theory.empty() ? "" : "  theory " + theory);
         if (std::any_of(values.begin(), values.end(), [](const Json& x) { return x.is_null(); }))
             text += fmt::format("      {}\n", f.at("remark").get<std::string>());
     }
@@ -45,7 +46,8 @@ std::string table_of_differences(const Json& all) {
         std::string line = fmt::format("  {:<58}", row["what"].get<std::string>());
         for (std::size_t n = 0; n < row["measured"].size(); ++n) {
             const Json& measured = row["measured"][n];
-            line += fmt::format(" {:<26}", measured.is_null() ? "-" : value_text(measured, unit) + error_text(row["error"][n]));
+            line += fmt::format(" {:<26}",
+                                measured.is_null() ? "-" : value_text(measured, unit) + error_text(row["error"][n], measured));
         }
         for (const Json& more : row["more_than_errors"])
             line += more.is_null() ? "" : more.get<bool>() ? " differ" : " within the errors";

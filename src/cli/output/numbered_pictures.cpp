@@ -65,6 +65,11 @@ std::int64_t NumberedPictures::count_finished() const {
 }
 
 void NumberedPictures::keep_apart() const {
+    if (const std::int64_t made = resume || replace ? 0 : count_finished(); made > 0)
+        throw InputError(
+            folder.string(),
+            fmt::format("contains {} of {} that the same command makes; --resume continues there, --replace makes all again", made,
+                        counted(count, "picture")));
     std::map<fs::path, std::int64_t> own;
     for (std::int64_t n = 0; n < count; ++n) own.emplace(name(n), n);
     std::vector<fs::path> others;

@@ -28,7 +28,8 @@ struct NumberedPictures {
     /// Whether a picture exists that the same command has made of the same display and content.
     bool finished(std::int64_t n) const;
     std::int64_t count_finished() const;
-    /// Removes files with names like these that are not finished pictures, with `replace`; else throws InputError if there are any.
+    /// Throws InputError for finished pictures, without `resume` and `replace`. Removes files with names like these that are not
+    /// finished pictures, with `replace`; else throws InputError if there are any.
     /// Pictures that lfdsim has not made are never removed. With `resume`, files that are not pictures any more do not count: they
     /// are made again.
     void keep_apart() const;

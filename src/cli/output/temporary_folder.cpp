@@ -39,13 +39,14 @@ TemporaryFolder::TemporaryFolder() {
     }
     janitor_ = fork();
     if (janitor_ == 0) clean_up(name.c_str(), ends[0], ends[1]);
+    const std::error_code error(errno, std::generic_category());
     close(ends[0]);
     alive_ = ends[1];
     path_ = name;
     if (janitor_ < 0) {
         close(alive_);
         std::filesystem::remove(path_);
-        fail("fork");
+        throw std::system_error(error, "fork");
     }
 }
 

@@ -53,11 +53,6 @@ void ViewsFolder::check() const {
     if (fs::is_empty(folder, unreadable)) return;
     if (unreadable) throw InputError(folder.string(), fmt::format("cannot be read: {}", unreadable.message()));
     if (!pictures_.resume && !pictures_.replace) {
-        if (const std::int64_t made = pictures_.count_finished(); made > 0)
-            throw InputError(
-                folder.string(),
-                fmt::format("contains {} of {} that the same command makes; --resume continues there, --replace makes all again",
-                            made, counted(pictures_.count, "picture")));
         pictures_.keep_apart();
         throw InputError(folder.string(),
                          "contains other files; give an empty folder for the views, or --replace to write beside them");

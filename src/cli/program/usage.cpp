@@ -108,8 +108,10 @@ std::vector<std::string> spaced_numbers(const std::string& form, std::span<const
 InputError spaced_error(const std::string& option, const std::string& form, const std::vector<std::string>& numbers) {
     const std::string between(1, separator(form));
     const bool comma = between == ",";
-    return {option, fmt::format("the numbers of its value, {}, are separated by {} without spaces: {} {}",
-                                form.substr(form.rfind('|') + 1), comma ? "commas" : "an x", option, fmt::join(numbers, between))};
+    const std::string wanted = form.substr(form.rfind('|') + 1);
+    const bool all = numbers.size() == std::size_t(1 + std::count(wanted.begin(), wanted.end(), between[0]));
+    return {option, fmt::format("the numbers of its value, {}, are separated by {} without spaces: {} {}", wanted,
+                                comma ? "commas" : "an x", option, all ? fmt::to_string(fmt::join(numbers, between)) : wanted)};
 }
 
 InputError setting_error(const std::string& option, const std::string& key) {

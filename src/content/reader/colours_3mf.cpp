@@ -15,6 +15,8 @@
 namespace lfdsim::reader {
 namespace {
 
+constexpr std::string_view blanks = " \t\r\n";
+
 // Returns the archive's current file, about 2^28 bytes of it at most.
 std::string text_of_current(unzFile archive) {
     constexpr std::size_t most = std::size_t(1) << 28, step = std::size_t(1) << 16;
@@ -49,10 +51,28 @@ std::string_view next_element(std::string_view& text, std::string_view name) {
 // Returns the value of an attribute of the element with which a text begins; empty if it has none.
 std::string_view value_of(std::string_view text, const std::string& attribute) {
     const std::string_view tag = text.substr(0, text.find('>'));
-    const std::size_t at = tag.find(" " + attribute + "=");
+    const std::string wanted = attribute + "=";
+    std::size_t at = tag.find(wanted);
+    while (at != tag.npos && at > 0 && blanks.find(tag[at - 1]) == blanks.npos) at = tag.find(wanted, at + 1);
     if (at == tag.npos) return {};
-    const std::string_view quoted = tag.substr(at + attribute.size() + 2);
+    const std::string_view quoted = tag.substr(at + wanted.size());
     return quoted.size() < 2 ? "" : quoted.substr(1, quoted.find(quoted[0], 1) - 1);
+}
+
+// Throws std::runtime_error if a model requires an extension without which it would be shown wrongly. Materials are read, or noted
+// below, and of the production extension parts in other files are noted.
+void check_required(std::string_view text) {
+    text.remove_prefix(std::min(text.find("<model"), text.size()));
+    std::string_view prefixes = value_of(text, "requiredextensions");
+    while (!prefixes.empty()) {
+        prefixes.remove_prefix(std::min(prefixes.find_first_not_of(blanks), prefixes.size()));
+        const std::string prefix(prefixes.substr(0, prefixes.find_first_of(blanks)));
+        prefixes.remove_prefix(prefix.size());
+        const std::string_view name = value_of(text, "xmlns:" + prefix);
+        if (!prefix.empty() && name.find("/material/") == name.npos && name.find("/production/") == name.npos)
+            throw std::runtime_error("it requires the 3MF extension " + std::string(name.empty() ? prefix : name) +
+                                     ", which is not read; export it without");
+    }
 }
 
 // Returns the numbers of materials of all groups of base materials, by the groups' ids.
@@ -92,6 +112,7 @@ void note_3mf(const std::filesystem::path& file, NotShown& not_shown) {
         unzGetCurrentFileInfo(archive.get(), &about, name, sizeof name - 1, nullptr, 0, nullptr, 0);
         if (!std::string(name).ends_with(".model")) continue;
         const std::string text = text_of_current(archive.get());
+        check_required(text);
         if (text.find(":colorgroup") != std::string::npos || text.find("<colorgroup") != std::string::npos)
             not_shown.add("colours of 3MF colour groups");
         if (has_attribute(text, "<triangle ", " pid=")) not_shown.add("materials of single triangles of 3MF");

@@ -7,7 +7,8 @@
 namespace lfdsim::reader {
 
 /// Notes colours of colour groups, materials of single triangles, missing materials, and parts in other files of the archive: they
-/// are not shown. Throws std::runtime_error for a material that does not exist. Other formats have nothing to note.
+/// are not shown. Throws std::runtime_error for a required extension that is not read, and for a material that does not exist.
+/// Other formats have nothing to note.
 void note_3mf(const std::filesystem::path&, NotShown&);
 
 }  // namespace lfdsim::reader

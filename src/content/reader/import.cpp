@@ -310,6 +310,7 @@ Model import(const std::filesystem::path& file, const std::string& up) {
         if (ending == ".obj") {
             note_free_forms(text, not_shown);
             changed |= separate_libraries(text);
+            changed |= lead_with_digits(text);
         }
         if (ending == ".stl") {
             changed |= lower_keywords(text);

@@ -29,7 +29,7 @@ namespace {
 // Returns stb's reason why a picture was not decoded. If it gets no memory it says so by one word, or nothing.
 std::string failure() {
     const char* const reason = std::exchange(stbi__g_failure_reason, nullptr);
-    if (!reason) return "it takes more memory than there is, or is damaged";
+    if (!reason) return "it is damaged, or takes more memory than there is";
     return reason == std::string_view("outofmem") ? "it takes more memory than there is" : reason;
 }
 

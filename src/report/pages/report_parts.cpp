@@ -139,7 +139,7 @@ std::string value_html(const Json& values, const std::string& unit) {
     for (const Json& x : values) {
         number = number || x.is_number();
         text += text.empty() ? "" : " to ";
-        text += x.is_number() ? fmt::format("{:.4g}", x.get<double>()) : x.is_string() ? x.get<std::string>() : "not found";
+        text += x.is_number() ? digits_of(x.get<double>()) : x.is_string() ? x.get<std::string>() : "not found";
     }
     if (!number) return values.front().is_string() ? text : "not found";
     for (std::size_t at = text.find('-'); at != text.npos; at = text.find('-', at + 1))
@@ -147,11 +147,17 @@ std::string value_html(const Json& values, const std::string& unit) {
     return text + (unit == "deg" ? "°" : unit.empty() ? "" : " " + escaped(unit));
 }
 
-std::string error_text(const Json& errors) {
-    double most = 0;
-    for (const Json& x : errors)
-        if (x.is_number()) most = std::max(most, x.get<double>());
-    return most > 0 ? fmt::format(" ± {:.2g}", most) : "";
+std::string digits_of(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-12 ? 0. : value); }
+
+std::string error_text(const Json& errors, const Json& values) {
+    const auto largest = [](const Json& list) {
+        double most = 0;
+        for (const Json& x : list)
+            if (x.is_number()) most = std::max(most, std::abs(x.get<double>()));
+        return most;
+    };
+    const double error = largest(errors);
+    return error > 1e-5 * largest(values) ? fmt::format(" ± {:.2g}", error) : "";
 }
 
 std::string finding_rows(const Json& report) {
@@ -159,7 +165,7 @@ std::string finding_rows(const Json& report) {
     for (const Json& f : report.at("findings")) {
         const std::string unit = f.at("unit");
         html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"remark\">{}</td></tr>\n",
-                            text_of(f, "what"), value_html(f.at("measured"), unit) + error_text(f.at("error")),
+                            text_of(f, "what"), value_html(f.at("measured"), unit) + error_text(f.at("error"), f.at("measured")),
                             value_html(f.at("theory"), unit), text_of(f, "remark"));
     }
     return html;
@@ -173,7 +179,8 @@ std::string headline_row(const Json& report) {
     const Json& f = report.at("findings").front();
     const std::string unit = f.at("unit");
     return link + fmt::format("<td class=\"remark\">{}</td><td>{}</td><td>{}</td></tr>\n", text_of(f, "what"),
-                              value_html(f.at("measured"), unit) + error_text(f.at("error")), value_html(f.at("theory"), unit));
+                              value_html(f.at("measured"), unit) + error_text(f.at("error"), f.at("measured")),
+                              value_html(f.at("theory"), unit));
 }
 
 std::string glance(const ResultFolder& folder, const Json& measured) {

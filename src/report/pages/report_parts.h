@@ -11,8 +11,12 @@ namespace lfdsim {
 /// Returns a finding's values in words: "-20.1 to 19.9°", "12.3 mm", "–" for none; "not found" where they are null.
 std::string value_html(const Json& values, const std::string& unit);
 
-/// Returns " ± 0.02" for the largest of a finding's errors; an empty text if none is stated.
-std::string error_text(const Json& errors);
+/// Returns a value in four digits. What is nearer to 0 than 1e-12 of its unit is a rounding error: 0.
+std::string digits_of(double value);
+
+/// Returns " ± 0.02" for the largest of a finding's errors; an empty text if none is stated, or if none could be seen in the digits
+/// of the values.
+std::string error_text(const Json& errors, const Json& values);
 
 /// Returns the rows of one measure in the table of theory and measurement.
 std::string finding_rows(const Json& report);

@@ -120,7 +120,7 @@ std::string settings_section(const Json& all) {
 
 std::string figure_html(const Json& measured, const Json& error, const std::string& unit) {
     if (measured.is_null()) return "–";
-    return value_html(measured, unit) + error_text(error);
+    return value_html(measured, unit) + error_text(error, measured);
 }
 
 std::string difference_html(const Json& difference, const Json& more) {

@@ -27,6 +27,8 @@ constexpr int most_malformed = 100;
 constexpr int most_unsent_bytes = 128 << 10;
 constexpr std::size_t fragment_bytes = 64 << 10;  // of a long frame: pings and pongs can be sent between fragments
 
+constexpr const char* no_thread = "The viewer's machine has no thread left for another visitor.";
+
 std::string error_text(const std::string& what) { return json_utf8(nlohmann::ordered_json{{"type", "error"}, {"what", what}}); }
 
 }  // namespace
@@ -67,7 +69,7 @@ void Session::welcome(const Request& request, Connect connect) {
         try {
             visit_ = std::thread([self = shared_from_this(), connect] { self->visit(connect); });
         } catch (const std::system_error&) {
-            mailbox_.text(error_text("The viewer's machine has no thread left for another visitor."));
+            mailbox_.text(error_text(no_thread));
             return finish();
         }
         ++tally_.visitors;
@@ -176,7 +178,9 @@ void Session::visit(const Connect& connect) {
             post([](Session& s) { s.read(); });
         }
     } catch (const std::exception& e) {
-        text(error_text(e.what()));
+        const auto* const system = dynamic_cast<const std::system_error*>(&e);
+        const bool threads = system && system->code() == std::errc::resource_unavailable_try_again;
+        text(error_text(threads ? no_thread : e.what()));
         post([](Session& s) { s.finish(); });
     }
     while (take()) {  // until end() has been called

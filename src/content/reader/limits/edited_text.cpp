@@ -184,6 +184,25 @@ bool separate_libraries(std::string& text) {
     return changed;
 }
 
+bool lead_with_digits(std::string& text) {
+    std::string out;
+    std::size_t copied = 0;  // of the text
+    for (std::string_view rest = text; !rest.empty();) {
+        const std::string_view line = next_line(rest);
+        std::string_view words = line;
+        if (!next_word(words).starts_with('v')) continue;
+        for (std::size_t at = words.find('.'); at != words.npos; at = words.find('.', at + 1)) {
+            if (std::string_view(" \t+-").find(words[at - 1]) == std::string_view::npos) continue;
+            const auto point = std::size_t(words.data() + at - text.data());
+            out.append(text, copied, point - copied) += '0';
+            copied = point;
+        }
+    }
+    if (copied == 0) return false;
+    text = out.append(text, copied);
+    return true;
+}
+
 void note_free_forms(std::string_view text, NotShown& not_shown) {
     while (!text.empty()) {
         std::string_view line = next_line(text);

@@ -33,6 +33,10 @@ bool invert_materialise_bits(std::string& bytes);
 /// Gives each file of "mtllib a.mtl b.mtl" a line of its own, without blanks behind it: Assimp takes the line for one name.
 bool separate_libraries(std::string& text);
 
+/// Writes "0.5" for ".5" in the positions, normals and texture coordinates of an OBJ file: Assimp does not count words that begin
+/// with a point as numbers.
+bool lead_with_digits(std::string& text);
+
 /// Notes what else of an OBJ file Assimp leaves out: free-form curves and surfaces.
 void note_free_forms(std::string_view text, NotShown&);
 

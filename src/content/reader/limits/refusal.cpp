@@ -42,9 +42,15 @@ std::string refusal(const std::string& says, const std::filesystem::path& file, 
     if (says.starts_with("No suitable reader found")) return "is damaged, or of no format that is read";
     if (says.starts_with("Cannot parse string"))
         return "has text where a number is expected; save it in another format, such as glTF";
+    if (says.starts_with("OBJ-file is too small")) return no_triangles(not_shown);
     for (const char* const known : {"Failed to open file", "File came out empty"})
         if (says.find(known) != says.npos) return unfit;
-    return says;
+    // Some messages name the file with its whole path.
+    std::string text = says;
+    const std::string folder = file.parent_path().string() + "/";
+    for (std::size_t at = text.find(folder); at != text.npos && folder.size() > 1; at = text.find(folder, at))
+        text.erase(at, folder.size());
+    return text;
 }
 
 std::optional<std::string> plain_warning(const std::string& says) {
