@@ -4,6 +4,8 @@
 #include "image/font.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -51,40 +53,59 @@ int label_scale(std::span<const std::string> labels, int picture_width, int shee
     return std::clamp(picture_width / (glyph_width * int(longest)), 1, readable_scale(sheet_width));
 }
 
+/// Places on a sheet: cells as wide as the widest picture, and rows as high as their highest picture and the longest label.
+struct SheetLayout {
+    int columns, cell_width, label_scale, label_height;
+    std::size_t letters;             // of a line of a label
+    std::vector<std::int64_t> tops;  // of each row, pixels from the sheet's upper edge
+    std::int64_t width, height;
+    std::int64_t left(int column) const { return sheet_margin + std::int64_t(column) * (cell_width + sheet_margin); }
+};
+
+SheetLayout layout_of(std::span<const Image> pictures, std::span<const std::string> labels, int columns) {
+    const int count = int(pictures.size());
+    SheetLayout s{};
+    s.columns = std::clamp(columns, 1, std::max(count, 1));
+    s.cell_width = 1;
+    for (const Image& p : pictures) s.cell_width = std::max(s.cell_width, p.width);
+    s.width = s.left(s.columns);
+    s.label_scale = label_scale(labels, s.cell_width, int(std::min<std::int64_t>(s.width, std::numeric_limits<int>::max())));
+    s.letters = std::size_t(s.cell_width / (glyph_width * s.label_scale));
+    std::size_t lines = 0;  // of the longest label
+    for (const std::string& each : labels) lines = std::max(lines, lines_of(each, s.letters).size());
+    s.label_height = labels.empty() ? 0 : int(lines) * glyph_height * s.label_scale + sheet_margin / 2;
+    s.height = sheet_margin;
+    for (int first = 0; first < count; first += s.columns) {
+        int tallest = 0;
+        for (int i = first; i < std::min(count, first + s.columns); ++i)
+            tallest = std::max(tallest, pictures[std::size_t(i)].height);
+        s.tops.push_back(s.height);
+        s.height += s.label_height + tallest + sheet_margin;
+    }
+    return s;
+}
+
 }  // namespace
 
+double contact_sheet_pixels(std::span<const Image> pictures, std::span<const std::string> labels, int columns) {
+    const SheetLayout layout = layout_of(pictures, labels, columns);
+    return double(layout.width) * double(layout.height);
+}
+
 Image contact_sheet(std::span<const Image> pictures, std::span<const std::string> labels, int columns) {
-    // The layout: cells as wide as the widest picture, and rows as high as their highest picture and the longest label.
-    const int count = int(pictures.size());
-    columns = std::clamp(columns, 1, std::max(count, 1));
-    int width = 1;
-    for (const Image& p : pictures) width = std::max(width, p.width);
-    const int sheet_width = columns * (width + sheet_margin) + sheet_margin, scale = label_scale(labels, width, sheet_width);
-    const auto letters = std::size_t(width / (glyph_width * scale));
-    std::size_t lines = 0;  // of the longest label
-    for (const std::string& each : labels) lines = std::max(lines, lines_of(each, letters).size());
-    const int label = labels.empty() ? 0 : int(lines) * glyph_height * scale + sheet_margin / 2;
-    std::vector<int> tops;  // of each row, pixels from the sheet's upper edge
-    int bottom = sheet_margin;
-    for (int first = 0; first < count; first += columns) {
-        int tallest = 0;
-        for (int i = first; i < std::min(count, first + columns); ++i) tallest = std::max(tallest, pictures[std::size_t(i)].height);
-        tops.push_back(bottom);
-        bottom += label + tallest + sheet_margin;
-    }
-    // The sheet.
-    Image sheet(sheet_width, bottom);
+    const SheetLayout layout = layout_of(pictures, labels, columns);
+    Image sheet(int(layout.width), int(layout.height));
     std::fill(sheet.rgb.begin(), sheet.rgb.end(), sheet_background);
-    for (int i = 0; i < count; ++i) {
-        const int x = sheet_margin + i % columns * (width + sheet_margin), y = tops[std::size_t(i / columns)];
+    for (int i = 0; i < int(pictures.size()); ++i) {
+        const int x = int(layout.left(i % layout.columns)), y = int(layout.tops[std::size_t(i / layout.columns)]);
         if (!labels.empty()) {
             int line_y = y;
-            for (const std::string& line : lines_of(labels[std::size_t(i)], letters)) {
-                draw_text(sheet, x, line_y, scale, line, sheet_ink);
-                line_y += glyph_height * scale;
+            for (const std::string& line : lines_of(labels[std::size_t(i)], layout.letters)) {
+                draw_text(sheet, x, line_y, layout.label_scale, line, sheet_ink);
+                line_y += glyph_height * layout.label_scale;
             }
         }
-        paste(pictures[std::size_t(i)], sheet, x, y + label);
+        paste(pictures[std::size_t(i)], sheet, x, y + layout.label_height);
     }
     return sheet;
 }

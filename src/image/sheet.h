@@ -15,4 +15,7 @@ inline constexpr float sheet_background = 0.012f, sheet_ink = 0.6f;  // linear l
 /// are cut where that is not enough. There are as many labels as pictures, or none.
 Image contact_sheet(std::span<const Image> pictures, std::span<const std::string> labels, int columns);
 
+/// Returns the number of pixels of that sheet.
+double contact_sheet_pixels(std::span<const Image> pictures, std::span<const std::string> labels, int columns);
+
 }  // namespace lfdsim

@@ -1,6 +1,7 @@
 """`lfdsim import` as a user runs it: lenses that check calls valid, glasses, catalogues, calibrations, files that are kept, clear errors."""
 import json
 import math
+import pathlib
 
 import numpy
 from program import Checks, Program
@@ -53,6 +54,41 @@ program.must("check glass/elsewhere.toml")
 program.must("import doublet.zmx --catalogue glass/other.agf glass/my.agf --glass N-BK7=OTHER MYSF5=OTHER -o both.toml")
 program.must("import --catalogue glass/other.agf glass/my.agf doublet.zmx -o first.toml")
 
+# A glass of the user's catalogue that cannot be used is not replaced by the one of that name that ships; the reason is told.
+BROKEN = CATALOGUE.replace("LD 0.37 2.5\n", "") + CATALOGUE.replace("MYSF5", "OTHER")
+for own, named in (("MYSF5", "MYSF5"), ("n-bk7", "N-BK7")):
+    (folder / "glass" / "broken.agf").write_text(BROKEN.replace("MYSF5", own))
+    checks.refused(program, f"a broken {own}", "import doublet.zmx --catalogue glass/broken.agf -o x.toml", f"broken.agf:2: {own} is left out: it has no line LD")
+    checks.refused(program, f"a display with a broken {own}", f"check named.toml --set glass_catalogues=[\"glass/broken.agf\"] --set lens.surface.1.glass={named}",
+                   f"broken.agf:2: {own} is left out: it has no line LD")
+
+# ray-optics: of several apertures the smallest counts, as a ray must pass all; polynomials without coefficients are refused.
+roa = json.loads((pathlib.Path(__file__).resolve().parents[2] / "fuzz/corpus/rayoptics/doublet.roa").read_text())
+
+
+def of_class(json_value, name):
+    """All objects of a class within a value, in their order."""
+    if isinstance(json_value, dict):
+        if name in json_value.get("__instance_type__", []):
+            yield json_value["attributes"]
+        json_value = list(json_value.values())
+    if isinstance(json_value, list):
+        for inner in json_value:
+            yield from of_class(inner, name)
+
+
+surface = list(of_class(roa, "Surface"))[1]
+surface["clear_apertures"] = [{"__instance_type__": ["rayoptics.elem.surface", "Circular"], "attributes": {"radius": radius, "is_obscuration": False}} for radius in (9, 5, 11)]
+(folder / "apertures.roa").write_text(json.dumps(roa))
+program.must("import apertures.roa -o apertures.toml")
+semi = [surface["semi_aperture_mm"] for surface in json.loads(program.must("check apertures.toml --json"))["display"]["lens"]["surface"]]
+checks.that(5 in semi and 9 not in semi and 11 not in semi, f"apertures of 9, 5 and 11 mm: {semi}")
+polynomial = next(of_class(roa, "EvenPolynomial"))
+for coefs in (None, "none", [0] * 101):
+    polynomial["coefs"] = coefs
+    (folder / "bare.roa").write_text(json.dumps(roa))
+    checks.refused(program, f"a polynomial of {coefs!r:.20}", "import bare.roa -o x.toml", "coefs: are no list of up to 100 coefficients")
+
 # A picture through a lens whose stop stands between its glasses.
 TRIPLET = zmx([(1 / 22.01359, 3.25896, "GLAS N-SK16"), (-1 / 435.76044, 6.00755), (-1 / 22.21328, 0.99997, "GLAS F2"), (1 / 20.29192, 4.75041),
                (0, 0, "STOP"), (1 / 79.6836, 2.95208, "GLAS N-SK16"), (-1 / 18.39533, 42.20778)])
@@ -83,6 +119,12 @@ for name, glass in [("unit", ""), ("sheet", " --index 1.9")]:
             program.must(f"render {name}.toml --panel-image shown.npy --camera-mm {x},0,400 --size 96x72 -o seen.npy")
             light = numpy.load(folder / "seen.npy")[8:-8, 8:-8].mean()
             checks.that(0.9 < light < 1.1 if shown == seen else light < 0.02, f"{name}: of view {shown} an eye at {seen} sees {light:.3f}")
+
+# Two calibrations that differ in any value are not taken for one.
+unit = json.loads((folder / "visual.json").read_text())
+for change in ({"flipImageX": {"value": 1}}, {"flipSubp": {"value": 1}}, {"serial": "OTHER"}, {"center": {"value": 0.123}}):
+    (folder / "two.json").write_text(json.dumps([unit, {**unit, **change}]))
+    checks.refused(program, f"two calibrations, {change}", "import two.json --distance-mm 400 -o x.toml", "two.json: contains 2 calibrations")
 
 # A calibration is found where services put it, and nothing is blamed on the display that it is of: it is focused on its panel.
 (folder / "service.json").write_text(json.dumps({"error": 0, "devices": [{"hwid": "X", "calibration": json.loads((folder / "visual.json").read_text())}]}))

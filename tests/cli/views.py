@@ -2,6 +2,7 @@
 import json
 import shutil
 import signal
+import subprocess
 import time
 
 import numpy as np
@@ -177,6 +178,23 @@ HCI = "--focus-width-mm 48 --focus-depth-mm 4"
 of_hci, said, _ = eia(f"--views hci {HCI}")
 checks.that(said["views"]["form"] == "HCI 4D" and abs(said["views"]["camera_distance_mm"] - 360) < 1e-9, f"{said}")
 checks.that(same(of_hci, eia("--views spheres_png")[0]), "HCI 4D differs from the same views numbered")
+done = subprocess.run([program.path, "eia", "../tiny.toml", "--views", "parameters.cfg", *HCI.split(), "--progress", "none", "-o", "../cfg.npy"], cwd=hci,
+                      capture_output=True, text=True, check=False)
+checks.that(done.returncode == 0 and same(np.load(folder / "cfg.npy"), of_hci), f"parameters.cfg by its name alone: {done.stderr}")
+# A cone stays a cone at any distance of the cameras; the one that is asked for is that of a row, whatever the number of rows.
+(folder / "coned").mkdir()
+for k in range(9):
+    shutil.copy(folder / f"spheres_png/view_000{k}.png", folder / f"coned/view_000{k}.png")
+for distance in ("", "distance_mm = 2000\n"):
+    (folder / "coned/views.toml").write_text(f"schema = 1\ncolumns = 3\nrows = 3\nview_cone_deg = 40\nwidth_mm = 48\n{distance}")
+    _, of_cone, _ = eia("--views coned --camera-distance-mm 200")
+    checks.that(abs(of_cone["views"]["cameras_width_mm"] - 400 * np.tan(np.radians(40 / 3))) < 1e-6, f"{distance!r}: {of_cone['views']}")
+for name, rows in ("low", 1), ("high", 3):
+    (folder / name).mkdir()
+    for k in range(2 * rows):
+        shutil.copy(folder / "spheres_png/view_0000.png", folder / f"{name}/out_{k // 2:02}_{k % 2:02}_{-k // 2 * 0.5}_{k % 2 * 0.5}_.png")
+    _, of_row, _ = eia(f"--views {name} --view-cone-deg 30 --camera-distance-mm 1000 --focus-width-mm 48")
+    checks.that(abs(of_row["views"]["cameras_width_mm"] - 1000 * np.tan(np.radians(15))) < 1e-6, f"{rows} rows: {of_row['views']}")
 depth = np.load(folder / "spheres/depth_0004.npy")[..., 0]
 disparity = np.where(depth > 0, 90 * (240 / 48) * (360 / np.maximum(depth, 1) - 1), np.inf)
 disparity = np.where(np.isfinite(disparity), disparity, disparity.min()).astype("<f4")

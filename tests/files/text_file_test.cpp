@@ -77,6 +77,12 @@ TEST(CheckText, Nesting) {
     for (int i = 0; i < 300000; ++i) dots += ".a";
     EXPECT_THAT(fault_of_text(dots + " = 1"), HasSubstr("x.toml:2:36: is nested 17 levels"));
     EXPECT_THAT(fault_of_text("[" + dots.substr(3) + "]"), HasSubstr("nested 17 levels"));
+    for (const std::string quotes :
+         {"\"\"\"", "'''"})  // the end of a string of several lines may have one or two quotes of its own
+        for (const std::string& own : {quotes.substr(0, 1), quotes.substr(0, 2)})
+            EXPECT_THAT(fault_of_text("a = [" + quotes + "b" + own + quotes + ", {" + dots.substr(3) + " = 1}]"),
+                        HasSubstr("x.toml:1:"))
+                << quotes << own;
     // brackets and dots that are no nesting
     for (const std::string& text : std::vector<std::string>{
              "# [[[[[[[[[[[[[[[[[[[[", "a = '[[[[[[[[[[[[[[[[[[[['", "a = \"\\\"[[[[[[[[[[[[[[[[[[[[\"",

@@ -61,7 +61,7 @@ class Harness:
         return self.only in name
 
     def lfdsim(self, *arguments):
-        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, timeout=600)
+        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, timeout=3600)
         if done.returncode:
             raise RuntimeError(f"lfdsim {arguments[0]} ended with {done.returncode}: {done.stderr.strip()[-600:]}")
         return done.stdout

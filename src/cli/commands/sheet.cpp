@@ -57,9 +57,14 @@ void run(const SheetArguments& args) {
 
     double cell_pixels = 0;
     for (const Image& cell : cells) cell_pixels += double(cell.width) * cell.height;
+    const double sheet_pixels = contact_sheet_pixels(cells, labels, int(columns));
+    if (sheet_pixels >= 0x1p31)
+        throw InputError("--width-px",
+                         fmt::format("the sheet would have {:.3g} million pixels, allowed are {:.0f}; give a smaller width",
+                                     sheet_pixels * 1e-6, 0x1p31 * 1e-6));
     // Bytes of the cells and of the sheet, 12 a pixel, and a tenth more.
     require_memory("--width-px", fmt::format("{} {} pixels wide, and the sheet", counted(cells.size(), "picture"), width),
-                   2.2 * 12 * cell_pixels);
+                   1.1 * 12 * (cell_pixels + sheet_pixels));
     const Image sheet = contact_sheet(cells, labels, int(columns));
     write_image(output, sheet, {8, Encoding::srgb, {{"Software", software}}});
     CutOff cut;

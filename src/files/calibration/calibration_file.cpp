@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <span>
 
 #include "base/printable.h"
 #include "display/keys.h"
@@ -52,12 +53,25 @@ std::size_t own_keys_of(const LensJson& json) {
                                      [&](std::string_view key) { return !named(json, std::string(key)).is_null(); }));
 }
 
+/// Returns the value under a key, without the object {"value": x} around it; null if there is none.
+const LensJson& value_of(const LensJson& json, const std::string& key) {
+    const LensJson& found = named(json, key);
+    return found.is_object() ? member(found, "value") : found;
+}
+
 /// Returns the number, word or flag under a key; null where there is a list or an object without "value".
 const LensJson& plain(const LensJson& json, const std::string& key) {
     static const LensJson nothing;
-    const LensJson& found = named(json, key);
-    const LensJson& value = found.is_object() ? member(found, "value") : found;
+    const LensJson& value = value_of(json, key);
     return value.is_structured() ? nothing : value;
+}
+
+/// The keys of a cell's places: x and y of red, green and blue.
+constexpr const char* offset_keys[] = {"ROffsetX", "ROffsetY", "GOffsetX", "GOffsetY", "BOffsetX", "BOffsetY"};
+
+/// Whether two objects have the same plain values under these keys.
+bool same(std::span<const char* const> keys, const LensJson& a, const LensJson& b) {
+    return std::all_of(keys.begin(), keys.end(), [&](const char* key) { return plain(a, key) == plain(b, key); });
 }
 
 /// A calibration within a text. The text may nest deeply, so no value is copied or compared as a whole.
@@ -66,11 +80,15 @@ struct CalibrationValues {
     std::shared_ptr<const LensJson> text;  // that contains it
     const LensJson* json;                  // the calibration, in `text`
 
-    /// Whether another calibration has the same numbers: that of the same device.
+    /// Whether another calibration has the same values, of all that are read: that of the same device.
     bool same_unit(const LensJson& other) const {
-        constexpr const char* keys[] = {"serial", "pitch", "slope", "center", "DPI", "screenW", "screenH", "viewCone"};
-        return std::all_of(std::begin(keys), std::end(keys),
-                           [&](const char* key) { return plain(*json, key) == plain(other, key); });
+        constexpr const char* keys[] = {"serial",   "pitch",      "slope",    "center",         "DPI", "screenW", "screenH",
+                                        "viewCone", "flipImageX", "flipSubp", "CellPatternMode"};
+        const LensJson &cells = value_of(*json, "subpixelCells"), &others = value_of(other, "subpixelCells");
+        if (!same(keys, *json, other) || cells.size() != others.size() || cells.is_array() != others.is_array()) return false;
+        for (std::size_t k = 0; cells.is_array() && k < cells.size(); ++k)
+            if (!same(offset_keys, cells[k], others[k])) return false;
+        return true;
     }
 };
 
@@ -204,14 +222,11 @@ class CalibrationReader : JsonReader {
 
     CellPlaces read_cell(const LensJson& json, const std::string& place) {
         CellPlaces places{};
-        constexpr const char* keys[3][2] = {{"ROffsetX", "ROffsetY"}, {"GOffsetX", "GOffsetY"}, {"BOffsetX", "BOffsetY"}};
         for (std::size_t channel = 0; channel < 3; ++channel)
             for (std::size_t k = 0; k < 2; ++k) {
-                const char* key = keys[channel][k];
-                const LensJson& found = named(json, key);
+                const char* key = offset_keys[2 * channel + k];
                 refuse_twice(json, key, fmt::format("{}.{}", place, key));
-                places[channel][k] =
-                    in_range(found.is_object() ? member(found, "value") : found, fmt::format("{}.{}", place, key), place_range);
+                places[channel][k] = in_range(value_of(json, key), fmt::format("{}.{}", place, key), place_range);
             }
         return places;
     }

@@ -17,7 +17,7 @@ constexpr int deepest = 16;  // levels of nesting; a description needs 3
 }
 
 // Returns where a TOML string that starts at `i` ends: after its closing quotes or, without them, at the end of the line or text.
-// Three quotes enclose strings of several lines; only double quotes have escapes.
+// Three quotes enclose strings of several lines, which may themselves end in one or two quotes; only double quotes have escapes.
 std::size_t skip_string(std::string_view text, std::size_t i) {
     const char quote = text[i];
     const std::string_view fence = text.substr(i, 3);
@@ -28,8 +28,11 @@ std::size_t skip_string(std::string_view text, std::size_t i) {
             ++i;
         else if (text[i] == '\n' && !multi_line)
             return i;
-        else if (text.substr(i, end.size()) == end)
-            return i + end.size();
+        else if (text.substr(i, end.size()) == end) {
+            i += end.size();
+            for (const std::size_t last = i + 2; multi_line && i < std::min(last, text.size()) && text[i] == quote;) ++i;
+            return i;
+        }
     }
     return text.size();
 }

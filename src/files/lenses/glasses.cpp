@@ -29,17 +29,32 @@ void visit_glasses(std::span<const GlassCatalogue> catalogues, const Visit& visi
     for (const ShippedGlass& shipped : shipped_glasses()) visit(shipped.glass);
 }
 
+/// Returns the doubt about a glass of a catalogue that does not have it for that reason; null if there is none.
+const Problem* left_out(std::string_view name, const GlassCatalogue& catalogue) {
+    const auto& glasses = catalogue.glasses;
+    if (std::any_of(glasses.begin(), glasses.end(), [&](const Glass& glass) { return same_name(glass.name, name); }))
+        return nullptr;
+    for (const auto& [glass, problem] : catalogue.doubts)
+        if (same_name(glass, name)) return &problem;
+    return nullptr;
+}
+
 }  // namespace
 
 const Glass* find_glass(std::string_view name, std::span<const GlassCatalogue> catalogues) {
-    const Glass* found = nullptr;
-    visit_glasses(catalogues, [&](const Glass& glass) {
-        if (!found && same_name(glass.name, name)) found = &glass;
-    });
-    return found;
+    for (const GlassCatalogue& catalogue : catalogues) {
+        for (const Glass& glass : catalogue.glasses)
+            if (same_name(glass.name, name)) return &glass;
+        if (left_out(name, catalogue)) return nullptr;
+    }
+    for (const ShippedGlass& shipped : shipped_glasses())
+        if (same_name(shipped.glass.name, name)) return &shipped.glass;
+    return nullptr;
 }
 
 std::string unknown_glass(std::string_view name, std::span<const GlassCatalogue> catalogues) {
+    for (const GlassCatalogue& catalogue : catalogues)
+        if (const Problem* const why = left_out(name, catalogue)) return fmt::format("{}: {}", why->where, why->what);
     std::set<std::string> capitals;  // each name once: a glass may be in several catalogues
     visit_glasses(catalogues, [&](const Glass& glass) { capitals.insert(in_capitals(glass.name)); });
     const std::vector<std::string_view> near =
@@ -54,7 +69,7 @@ std::vector<Problem> doubts_of_glasses(const Display& d) {
     for (const std::string& file : d.glass_catalogues)
         for (const auto& [glass, problem] : read_agf(file).doubts)
             for (const Medium& medium : media_of(d))
-                if (medium.glass && medium.glass->name == glass) {
+                if (medium.glass && same_name(medium.glass->name, glass)) {
                     all.push_back(problem);
                     break;
                 }

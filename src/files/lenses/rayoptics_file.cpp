@@ -59,6 +59,8 @@ class RayOpticsReader : LensJsonReader {
         for (const LensJson& aperture : member(its, "clear_apertures")) read_aperture(aperture, place, s);
     }
 
+    static constexpr std::size_t most_terms = 100;  // of a profile
+
     // Reads curvature cv, conic constant (cc, or ec = k + 1) and polynomial coefficients of a profile.
     void read_profile(const LensJson& json, const std::string& place, DrawnSurface& s) {
         const std::string type = class_of(json);
@@ -71,7 +73,9 @@ class RayOpticsReader : LensJsonReader {
         if (const LensJson& ec = member(its, "ec"); !ec.is_null()) s.conic = number(ec, place + ".ec") - 1;
         if (const LensJson& cc = member(its, "cc"); !cc.is_null()) s.conic = number(cc, place + ".cc");
         const LensJson& terms = member(its, "coefs");
-        if (!terms.is_array() || terms.size() > 100) return;
+        if (type == "Spherical" || type == "Conic") return;
+        if (!terms.is_array() || terms.size() > most_terms)
+            return refuse(place + ".coefs", "are no list of up to {} coefficients", most_terms);
         double a2 = 0;
         for (std::size_t k = 0; k < terms.size(); ++k) {
             const double a = number(terms[k], fmt::format("{}.coefs[{}]", place, k));
@@ -93,7 +97,8 @@ class RayOpticsReader : LensJsonReader {
         for (const char* key : {"x_offset", "y_offset"})
             if (const LensJson& offset = member(its, key); !offset.is_null() && number(offset, place) != 0)
                 refuse(place, "has a decentred aperture; only circles about the axis can be imported");
-        s.semi_aperture_mm = number(member(its, "radius"), place + ".radius");
+        const double radius = number(member(its, "radius"), place + ".radius");
+        s.semi_aperture_mm = s.is_hole ? std::min(*s.semi_aperture_mm, radius) : radius;  // the smallest one counts
         s.is_hole = true;
     }
 

@@ -70,7 +70,7 @@ ViewsSource find_views(const fs::path& path) {
         throw InputError(path.string(), fmt::format("contains no grid of views in a known form; {}", forms));
     }
     if (path.extension() == ".toml") return detail::described_views(path);
-    if (path.filename() == "parameters.cfg") return detail::hci_views(path.parent_path());
+    if (path.filename() == "parameters.cfg") return detail::hci_views(path.has_parent_path() ? path.parent_path() : ".");
     return find_quilt(path);
 }
 
@@ -148,11 +148,11 @@ ViewGrid placed(const ViewsSource& source, const ViewsWish& wish, const ViewsPla
                 at[k] = parts[k] > 0 ? at[k] * (*wish.baseline_mm)[k] * parts[k] / (high[k] - low[k]) : 0;
     } else if (wish.cone_deg && !source.cameras.empty() && !source.in_mm) {
         grid.camera_mm = source.cameras;
-        const int longer = std::max(grid.columns, grid.rows), steps = cone == ConeCameras::ends ? longer - 1 : longer;
+        const int row = grid.columns > 1 ? grid.columns : grid.rows, steps = cone == ConeCameras::ends ? row - 1 : row;
         const double wanted = 2 * grid.distance_mm * std::tan(0.5 * *wish.cone_deg * degree) / std::max(steps, 1);
         for (auto& at : grid.camera_mm)
             for (double& value : at) value *= source.step() > 0 ? wanted / source.step() : 0;
-    } else if (wish.cone_deg || (wish.cone && source.cone_deg)) {
+    } else if (wish.cone_deg || ((wish.cone || wish.distance_mm) && source.cone_deg)) {
         grid.camera_mm = in_cone(wish.cone_deg ? *wish.cone_deg : *source.cone_deg);
     } else if (!source.cameras.empty() && !source.in_mm) {
         throw InputError(source.name,

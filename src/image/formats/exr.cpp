@@ -101,8 +101,9 @@ double pixel_bytes(const Imf::ChannelList& channels) {
 void check_windows(const InputFile& file, const PixelWindow& data, const PixelWindow& display, const Imf::Header& header) {
     file.check_size(data.columns, data.rows, most_packed(header.compression()) / pixel_bytes(header.channels()));
     // Black parts of the frame take no bytes, so a small file may claim 2^25 pixels (7680 x 4320 are fewer) or 64 times the data.
-    const double frame = double(display.columns) * double(display.rows);
-    if (frame >= 0x1p31 || frame > std::max(0x1p25, 64.0 * double(data.columns) * double(data.rows)))
+    // Rows of the data are read whole, so data beyond the frame may be 2^22 pixels or 64 times the frame.
+    const double frame = double(display.columns) * double(display.rows), all = double(data.columns) * double(data.rows);
+    if (frame >= 0x1p31 || frame > std::max(0x1p25, 64 * all) || all > std::max(0x1p22, 64 * frame))
         file.refuse(fmt::format("is too large: its display window is {} x {} pixels, its data {} x {}", display.columns,
                                 display.rows, data.columns, data.rows));
 }

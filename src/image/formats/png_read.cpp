@@ -61,7 +61,8 @@ struct PngReader {
           info(png ? png_create_info_struct(png) : nullptr) {
         if (!info) throw std::bad_alloc();
         png_set_read_fn(png, file.stream(), on_read);
-        png_set_sig_bytes(png, 8);  // check_signature() has read them
+        png_set_sig_bytes(png, 8);                                   // check_signature() has read them
+        png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size() is stricter
     }
     ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
     PngReader(const PngReader&) = delete;
@@ -183,8 +184,7 @@ void read_png(const InputFile& file, Encoding encoding, const Allocate& allocate
     check_signature(file);
     check_chunks(file);
     const PngReader reader(file);
-    png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size is stricter
-    png_set_chunk_cache_max(reader.png, 1);                             // texts are not used: 1 collects none
+    png_set_chunk_cache_max(reader.png, 1);  // texts are not used: 1 collects none
     png_read_info(reader.png, reader.info);
 
     // The size is checked before anything is allocated.
