@@ -57,6 +57,11 @@ class InputError(ValueError):
     def remedy(self) -> str:
         return self.problems[0].remedy if self.problems else ""
 
+    @property
+    def lacks_memory(self) -> bool:
+        """Whether there is not enough free memory now: another time, or on another machine, there may be."""
+        return any(" of memory; " in problem.what for problem in self.problems)
+
     def of_arguments(self, names: Mapping[str, str]) -> InputError:
         """The same error with other places: of the arguments that the user gave."""
         return type(self)([(names.get(problem.where, problem.where), problem.what) for problem in self.problems])

@@ -1,5 +1,7 @@
 """Rows that would change nothing, or fail one and all, are refused before they are planned."""
 
+import os
+import pathlib
 import unittest
 import warnings
 
@@ -38,6 +40,35 @@ class Effects(StudyTest):
         text = GRID.replace('"grid"', '"table"\ntable = "rows.csv"') + FRONT + "camera_mm = [0, 0, 600]\n"
         with self.assertRaisesRegex(StudyError, "rows.csv: camera.position_mm.2: changes nothing"):
             plan(self.write(text), self.folder / "out")
+
+    def test_columns_that_change_the_same_value(self):
+        text = GRID.replace('"grid"', '"table"\ntable = "rows.csv"') + CHECK
+        (self.folder / "rows.csv").write_text('camera.position_mm.0,camera.position_mm\n50,"[0, 0, 900]"\n')
+        with self.assertRaisesRegex(StudyError, "rows.csv: camera.position_mm.0 and all of camera.position_mm are given"):
+            plan(self.write(text), self.folder / "out")
+
+    def test_components_that_are_not_there(self):
+        for key, said in (("array.offset_mm.2", "array.offset_mm has 2 components"), ("array.gap_mm.0", "array.gap_mm is not a vector")):
+            with self.subTest(key), self.assertRaisesRegex(StudyError, f"{key}: names no component: {said}"):
+                self.planned(f'[[factor]]\nkey = "{key}"\nvalues = [0, 1]\n' + CHECK)
+
+    def test_replicates_vary_the_errors_wherever_they_come_from(self):
+        for number, (fixed, keys) in enumerate((
+            ("", ["render.seed"]),
+            ('[set]\n"errors.decenter_sd_mm" = 0.05\n', ["errors.seed", "render.seed"]),
+            ('[set]\n"errors.decenter_sd_mm" = 0.05\n"errors.seed" = 3\n', ["render.seed"]),
+        )):
+            made = self.planned("replicates = 2\n" + fixed + CAMERA + CHECK, f"out{number}")
+            self.assertEqual(made.table().column_names, ["replicate", "camera.position_mm.2", *keys])
+
+    def test_models_lie_beside_the_display_wherever_it_is_planned(self):
+        here = pathlib.Path.cwd()
+        self.addCleanup(os.chdir, here)
+        (self.folder / "elsewhere").mkdir()
+        (self.folder / "elsewhere" / "m.obj").write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n")
+        os.chdir(self.folder / "elsewhere")
+        with self.assertRaisesRegex(StudyError, "m.obj: no such model file"):
+            self.planned(CAMERA + FRONT + 'model = "m.obj"\n')
 
     def test_a_key_that_changes_a_part_is_warned_of(self):
         text = CAMERA + CHECK + FRONT + "camera_mm = [0, 0, 600]\n"

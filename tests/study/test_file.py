@@ -26,6 +26,7 @@ WRONG = [
     ('"grid"', '"lhs"\nrows = 2.5', ["rows", "2.5", "whole number"]),
     ('"grid"', '"table"\ntable = "rows.csv"', ["[[factor]]", "no meaning"]),
     ('"grid"', '"grid"\nreplicates = 0', ["replicates", "is 0"]),
+    ('"grid"', '"grid"\n[set]\ncamera.resolution = [48, 27]', ["[set] camera", "is a table", '"camera.resolution" = ']),
     ('"grid"', '"grid"\nrows_per_chunk = 0', ["rows_per_chunk", "is 0"]),
     ('"grid"', '"grid"\n[[factor]]\nkey = "array.gap_mm"\nvalues = [1]', ["array.gap_mm", "more than once"]),
     ('"grid"', '"grid"\nset = { "array.gap_mm" = 3 }', ["array.gap_mm", "more than once"]),

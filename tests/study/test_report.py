@@ -187,6 +187,25 @@ class Page(StudyTest):
         self.assertEqual(int(lines[1][1]), 3 * int(lines[0][1]))
         self.assertEqual(lines[1].groups()[1:], lines[0].groups()[1:])
 
+    def test_an_empty_cell_has_the_displays_value(self):
+        (self.folder / "rows.csv").write_text("array.gap_mm\n16.1\n16.2\n16.3\n16.6\n16.7\n\"\"\n")
+        text = 'schema = 1\ndisplay = "display.toml"\ndesign = "table"\ntable = "rows.csv"\n[[measure]]\nname = "check"\n'
+        text += '[[limit]]\nfigure = "check.theory.fov_exact_deg"\nmin = 1\n'
+        out = self.folder / "out"
+        study.run(self.write(text), out, workers=1, progress=False)
+        found = data.read(planned.load(out))
+        self.assertEqual(found.factors["array.gap_mm"].tolist(), [16.1, 16.2, 16.3, 16.6, 16.7, 16.485])
+        self.assertEqual(found.numbers, {"array.gap_mm"})
+
+    def test_a_yield_of_figures_that_no_row_has_is_none(self):
+        for number, figure in enumerate(("central_depth_mm", "by_pixel_in_front_mm.0")):  # infinite, and undefined
+            text = 'schema = 1\ndisplay = "display.toml"\ndesign = "grid"\n[[factor]]\nkey = "camera.position_mm.2"\nvalues = [900, 1000]\n'
+            text += f'[set]\n"array.gap_mm" = 15.7\n[[measure]]\nname = "check"\n[[limit]]\nfigure = "check.theory.{figure}"\nmin = 1\nmax = 2\n'
+            out = self.folder / f"out{number}"
+            study.run(self.write(text), out, workers=1, progress=False)
+            study.report(out)
+            self.assertIn("<td>all limits</td><td></td><td></td><td>0</td><td>0.00 %</td>", (out / page.NAME).read_text())
+
     def test_texts_have_no_regression(self):
         text = 'schema = 1\ndisplay = "display.toml"\ndesign = "grid"\n[[factor]]\nkey = "content.pickup"\n'
         text += 'values = ["nodal", "traced", "integrated"]\n[[measure]]\nname = "check"\n[[limit]]\nfigure = "check.theory.views"\nmin = 1\n'
@@ -194,7 +213,7 @@ class Page(StudyTest):
         study.run(self.write(text), out, workers=1, progress=False)
         study.report(out)
         report = (out / page.NAME).read_text()
-        self.assertIn("Left out of the regression, as texts and lists have no order: content.pickup.", report)
+        self.assertIn("Left out of the regression, as texts, lists and empty cells have no order: content.pickup.", report)
         self.assertNotIn("by linear regression", report)
 
     def test_rows_of_saltelli_that_repeat_values_do_not_count(self):

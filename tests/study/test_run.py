@@ -138,6 +138,13 @@ class Runs(StudyTest):
         original = lfdsim.check
         self.addCleanup(setattr, lfdsim, "check", original)
 
+        def lacks_memory(display, **_):
+            raise lfdsim.InputError([("panel.pixels", "a picture needs 17 MB of memory; the control group has 0 kB free")])
+
+        lfdsim.check = lacks_memory
+        self.assertIn("needs 17 MB of memory", chunk.attempt(plan, 0, 1)["problem"])
+        self.assertFalse(plan.chunk_path(0).exists())
+
         def fails(display, **_):
             raise MemoryError("no memory")
 

@@ -11,7 +11,7 @@ from common import StudyTest
 
 import lfdsim
 from lfdsim import study
-from lfdsim.study import StudyError, chunk, planned
+from lfdsim.study import StudyError, chunk, files, planned
 
 
 def change_a_number(path):
@@ -36,6 +36,39 @@ class Kept(StudyTest):
         times = {p: p.stat().st_mtime_ns for p in self.out.rglob("*")}
         self.assertTrue(first.equals(self.run_it()))
         self.assertEqual(times, {p: p.stat().st_mtime_ns for p in self.out.rglob("*")})
+
+    def test_figures_that_a_finished_study_is_asked_for_later(self):
+        self.run_it()
+        text = self.file.read_text()
+        self.file.write_text(text + '[[limit]]\nfigure = "check.theory.fov_deg"\nmin = 1\n')
+        self.assertIn("check.theory.fov_deg", self.run_it().columns)
+        self.file.write_text(text + '[[limit]]\nfigure = "check.theory.fovv_deg"\nmin = 1\n')
+        with self.assertRaisesRegex(StudyError, '"check.theory.fovv_deg" is not a figure; did you mean'):
+            self.run_it()
+
+    def test_planning_that_was_stopped_goes_on(self):
+        whole = files.write_whole
+        self.addCleanup(setattr, files, "write_whole", whole)
+        for stop in ("plan.parquet", "study.toml", "plan.json"):
+
+            def stopped(path, content, stop=stop):
+                if path.name == stop:
+                    raise KeyboardInterrupt
+                whole(path, content)
+
+            files.write_whole = stopped
+            with self.assertRaises(KeyboardInterrupt):
+                study.plan(self.file, self.out)
+            files.write_whole = whole
+            study.plan(self.file, self.out)
+            shutil.rmtree(self.out)
+
+    def test_pictures_and_curves_of_another_study_are_not_written_over(self):
+        for name in ("pictures.zarr", "curves"):
+            (self.out / name).mkdir(parents=True)
+            with self.assertRaisesRegex(StudyError, f"{name}: exists and is no file of this study"):
+                study.plan(self.file, self.out)
+            shutil.rmtree(self.out)
 
     def test_only_the_missing_chunk_is_computed(self):
         first = self.run_it()

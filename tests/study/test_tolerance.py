@@ -122,6 +122,10 @@ class Budgets(unittest.TestCase):
 
     def test_nothing_is_guessed_beyond_what_was_possible(self):
         self.assertEqual(tolerances.allowed_scale({0.5: 0.0, 1: 0.1, 2: 0.2}, 1)[0], 2)
+        # What a larger error makes up for again is not allowed.
+        self.assertAlmostEqual(tolerances.allowed_scale({0.5: 0.1, 1: 0.4, 2: 0.1}, 0.2)[0], np.sqrt(0.5))
+        self.assertTrue(np.isnan(tolerances.allowed_scale({0.5: 0.3, 1: 0.1, 2: 0.4}, 0.2)[0]))
+        self.assertEqual(tolerances.Loss.parse("picture.ssim= -0.02"), tolerances.Loss("picture.ssim", 0.02, "fall"))
         self.assertEqual(tolerances.allowed_scale({0.5: 0.0, 1: 0.0, 2: 1.0}, 0.5)[0], 1)
         scale, how = tolerances.allowed_scale({0.5: np.inf, 1: np.inf, 2: np.inf}, 1, {0.5: "5 of 5 draws impossible"})
         self.assertTrue(np.isnan(scale))

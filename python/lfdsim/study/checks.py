@@ -24,8 +24,13 @@ def check_keys(study: Study, display: "lfdsim.Display", keys: Iterable[str]) -> 
     for key in keys:
         try:
             _value(display, key)
+            stem, _, last = key.rpartition(".")
+            vector = display[stem] if last.isdigit() else ()
         except (KeyError, ValueError) as error:
             raise StudyError(f"{study.table or study.path}: {key}", f"is not a key of the display: {error}") from error
+        if last.isdigit() and not (isinstance(vector, tuple) and int(last) < len(vector)):
+            found = f"has {len(vector)} components" if isinstance(vector, tuple) else "is not a vector in the display; state it there"
+            raise StudyError(f"{study.table or study.path}: {key}", f"names no component: {stem} {found}")
 
 
 def check_effects(study: Study, keys: Iterable[str]) -> None:

@@ -16,7 +16,8 @@ NAME = "study.parquet"
 def table_of(plan: Plan) -> pa.Table:
     """The table of a finished study, from its file if it is there and as it was written. Columns: row, what was varied, figures, error."""
     path = plan.folder / NAME
-    about = {"study": plan.identity, "figures": {m.label: list(m.figures) for m in plan.study.measures}}
+    figures = {m.label: list(m.figures) for m in plan.study.measures}
+    about = {"study": plan.identity, "figures": figures, "wished": plan.study.wished}
     if path.exists() and files.note_of(path).get("about") == about:
         return files.read_table(path, about, "remove it (it is made again from rows/), or rename it")[0]
     if path.exists() and files.note_of(path).get("about", {}).get("study") != plan.identity:
@@ -73,7 +74,9 @@ def wanted_figures(plan: Plan, measured: pa.Table) -> list[str]:
     wanted += [n for n in names if n.startswith(labels)] if labels else []
     numbers = [n for n in names if pa.types.is_floating(measured.schema.field(n).type)]
     for figure in plan.study.wished:
-        if names and figure not in numbers:
+        stem, _, last = figure.rpartition(".")
+        undefined = last.isdigit() and stem in numbers  # a list without values is one NaN under its own name
+        if names and figure not in numbers and not undefined:
             what = "is a text here, not a number" if figure in names else "is not a figure"
             raise StudyError(f"{plan.study.path}: [[limit]], [[objective]] or --loss", f'"{figure}" {what}; {nearest(figure, numbers)}')
         wanted += [figure] if figure in names else []

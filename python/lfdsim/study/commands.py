@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import datetime
 import pathlib
 import signal
 import sys
@@ -235,6 +236,9 @@ def _override(text: str) -> tuple[str, object]:
     if not (key and equals and value):
         raise StudyError(f"--set {text}", "is not KEY=VALUE, as in errors.gap_mm=0.02")
     try:
-        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+        parsed = tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return key.strip(), value
+    if isinstance(parsed, (datetime.date, datetime.time)):  # a datetime is a date
+        raise StudyError(f"--set {text}", "is a date or a time, which no key takes")
+    return key.strip(), parsed

@@ -108,6 +108,11 @@ def _table(path: pathlib.Path) -> Columns:
     return {key: [_cell(line[k]) for line in lines[1:]] for k, key in enumerate(keys)}
 
 
+def changes_of(study: Study) -> list[str]:
+    """The keys that rows change."""
+    return list(_table(study.table)) if study.table else [key for factor in study.factors for key in factor.keys]
+
+
 def texts_of_table(study: Study) -> list[str]:
     """Each once: some are names of files."""
     if not study.table:

@@ -87,6 +87,10 @@ def read_study(path: str | pathlib.Path) -> Study:
     design = top.text("design", among=DESIGNS)
     table = path.parent / top.text("table") if design == "table" else None
     fixed = dict(top.table("set", None).values)
+    for key, value in fixed.items():
+        if isinstance(value, dict):
+            inner = next(iter(value), "...")
+            raise top.wrong(f"[set] {key}", f'is a table; write each key in quotes, such as "{key}.{inner}" = ...')
     the_factors = tuple(_factor(t) for t in top.tables("factor"))
     _check_factors(top, design, the_factors, fixed)
     study = Study(
@@ -223,16 +227,23 @@ def _check_factors(top: Table, design: str, all_factors: tuple[Factor, ...], fix
         raise top.wrong("[[factor]]", 'has no meaning with design = "table": the table\'s columns are the factors')
     if design != "table" and not all_factors:
         raise top.wrong("[[factor]]", 'is missing; give at least one, or design = "table"')
-    keys = [key for f in all_factors for key in f.keys] + list(fixed)
-    for key in keys:
-        if keys.count(key) > 1:
-            raise top.wrong("[[factor]]", f"{key} is given more than once")
-        vector, _, component = key.rpartition(".")
-        if component.isdigit() and vector in keys:
-            raise top.wrong("[[factor]]", f"{key} and all of {vector} are given; give one of them")
+    twice = given_twice([key for f in all_factors for key in f.keys] + list(fixed))
+    if twice:
+        raise top.wrong("[[factor]]", twice)
     for number, f in enumerate(all_factors, 1):
         if design == "grid" and not f.levels:
             raise top.wrong(f"[[factor]] {number}", f'is a distribution, of which a grid has no steps; give values, or design = "lhs"')
+
+
+def given_twice(keys: list[str]) -> str:
+    """What is wrong with keys that change the same value; nothing if none do."""
+    for key in keys:
+        if keys.count(key) > 1:
+            return f"{key} is given more than once"
+        vector, _, component = key.rpartition(".")
+        if component.isdigit() and vector in keys:
+            return f"{key} and all of {vector} are given; give one of them"
+    return ""
 
 
 def _check_measures(top: Table, study: Study) -> None:

@@ -37,7 +37,7 @@ def read_text(path: pathlib.Path) -> str:
             content = file.read(MOST_TEXT + 1)
         if len(content) > MOST_TEXT:
             raise StudyError(path, f"has more than {MOST_TEXT >> 20} MiB, which no description has; give another file")
-        return content.decode()
+        return content.decode("utf-8-sig")
     except OSError as error:
         raise StudyError(path, f"cannot be read: {error.strerror}") from error
     except ValueError as error:  # not UTF-8, or a name with a zero in it
@@ -167,6 +167,14 @@ def note_of(path: pathlib.Path) -> dict[str, Any]:
         raise StudyError(
             path, f"is not a table that this study wrote ({type(error).__name__}); remove it (it is made again from rows/), or rename it"
         ) from error
+
+
+def is_of(path: pathlib.Path, identity: str) -> bool:
+    """Whether a table is there that belongs to the study of this identity."""
+    try:
+        return bool(path.exists() and note_of(path).get("about", {}).get("study") == identity)
+    except StudyError:
+        return False
 
 
 def read_table(path: pathlib.Path, about: dict[str, Any], remedy: str) -> tuple[pa.Table, dict[str, Any]]:

@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import files, work
-from .planned import Plan
+from .planned import PICTURES, Plan
 from .problems import StudyError
 
 if TYPE_CHECKING:
     import zarr
-
-NAME = "pictures.zarr"
 
 
 def prepare(plan: Plan) -> None:
@@ -24,7 +22,7 @@ def prepare(plan: Plan) -> None:
 
     Pictures are (row, y, x, channel), linear light, row 0 of y at the top.
     """
-    path = plan.folder / NAME
+    path = plan.folder / PICTURES
     if not plan.study.pictures:
         return
     _require_zarr()
@@ -52,23 +50,24 @@ def prepare(plan: Plan) -> None:
 
 def write(plan: Plan, row: int, made: dict[str, np.ndarray]) -> None:
     for name, picture in made.items():
-        store = _open(plan.folder / NAME, name)
+        store = _open(plan.folder / PICTURES, name, plan.identity)
         if store.shape[1:] != picture.shape:
             raise StudyError(
                 f"[[picture]] {name}",
                 f"of row {row} is {picture.shape[1]} x {picture.shape[0]}, others {store.shape[2]} x "
                 f"{store.shape[1]}; give the picture a size, or camera.resolution the same value in all rows",
             )
-        with files.full_disk_told(plan.folder / NAME):
+        with files.full_disk_told(plan.folder / PICTURES):
             store[row] = picture
 
 
 def read(plan: Plan, row: int, name: str) -> np.ndarray:
-    return np.asarray(_open(plan.folder / NAME, name)[row])
+    return np.asarray(_open(plan.folder / PICTURES, name, plan.identity)[row])
 
 
 @functools.lru_cache(maxsize=16)
-def _open(path: pathlib.Path, name: str) -> "zarr.Array[Any]":
+def _open(path: pathlib.Path, name: str, _identity: str) -> "zarr.Array[Any]":
+    """Of a study's identity: a folder that was removed may hold another one now."""
     _require_zarr()
     import zarr
 

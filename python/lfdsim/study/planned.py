@@ -18,10 +18,11 @@ import pyarrow.parquet as pq
 import lfdsim
 
 from . import checks, columns, design, files, work
-from .file import Study, read_study
+from .file import Study, given_twice, read_study
 from .problems import StudyError, listed, path_of
 
 FORMAT = 2  # of the folder
+PICTURES = "pictures.zarr"  # in it
 KINDS = {  # of what stands in plan.json
     "format": int,
     "name": str,
@@ -107,13 +108,22 @@ def _make(study: Study, folder: pathlib.Path) -> Plan:
     planned = _same_study(study, folder, display_text)
     if planned:
         return planned
-    if (folder / "rows").exists():
+    basis = _basis(study, display_text)
+    identity = files.digest(basis)
+    rows_folder = folder / "rows"
+    if rows_folder.exists() and (not rows_folder.is_dir() or any(rows_folder.iterdir())):
         raise StudyError(folder, "has rows but no plan.json: it is no study's folder, or was changed by hand; give another folder")
     files.refuse_foreign(folder / "study.toml", study.text)
-    for name in ("plan.parquet", "study.parquet", "report.html"):
+    if not files.is_of(folder / "plan.parquet", identity):  # planning may have been stopped before plan.json
+        files.refuse_foreign(folder / "plan.parquet")
+    for name in ("study.parquet", "report.html", PICTURES, "curves"):
         files.refuse_foreign(folder / name)
     work.check_measures(study)
-    keys = _replicate_keys(study, display_text)
+    changes = design.changes_of(study)
+    twice = given_twice(changes)  # a column may replace what [set] fixes
+    if twice:
+        raise StudyError(study.table or study.path, twice)
+    keys = _replicate_keys(study, display_text, changes)
     rows = design.rows_of(study, keys)
     changed = [k for k in rows if k != "replicate"]
     checks.check_keys(study, display, changed)
@@ -122,11 +132,8 @@ def _make(study: Study, folder: pathlib.Path) -> Plan:
     work.check_settings(study, _possible(study, display, rows), study.display_path.parent)
     table = columns.arrow_of(rows)
     per_chunk = study.rows_per_chunk or math.ceil(math.sqrt(len(table)) / 4)
-    basis = _basis(study, display_text)
-    identity = files.digest(basis)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "rows").mkdir()
+        rows_folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise StudyError(folder, f"cannot be made: {error.strerror}; give another folder") from error
     files.write_table(folder / "plan.parquet", table, {"study": identity}, rows_per_group=per_chunk)
@@ -254,9 +261,11 @@ def _possible(study: Study, display: "lfdsim.Display", rows: design.Columns) -> 
     return found
 
 
-def _replicate_keys(study: Study, display_text: str) -> tuple[str, ...]:
-    has_errors = "errors" in tomllib.loads(display_text) or any(k.startswith("errors.") for f in study.factors for k in f.keys)
-    return study.replicate_keys or (("errors.seed", "render.seed") if has_errors else ("render.seed",))
+def _replicate_keys(study: Study, display_text: str, changes: list[str]) -> tuple[str, ...]:
+    given = changes + list(study.fixed)
+    has_errors = "errors" in tomllib.loads(display_text) or any(f"{k}.".startswith("errors.") for k in given)
+    varies = has_errors and "errors.seed" not in given
+    return study.replicate_keys or (("errors.seed", "render.seed") if varies else ("render.seed",))
 
 
 def _basis(study: Study, display_text: str) -> dict[str, Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-import json
 import math
 import pathlib
 from collections.abc import Mapping
@@ -54,7 +53,7 @@ class Loss:
     @staticmethod
     def parse(text: str) -> "Loss":
         """FIGURE=AMOUNT; with a sign it may only fall (-) or rise (+) by as much, which the other way is no loss."""
-        figure, _, amount = text.rpartition("=")
+        figure, _, amount = (part.strip() for part in text.rpartition("="))
         try:
             number = float(amount)
         except ValueError:
@@ -163,20 +162,20 @@ def _keep(path: pathlib.Path, text: str) -> None:
 
 
 def _study_text(display: pathlib.Path, measures: tuple[str | dict[str, Any], ...], fixed: Mapping[str, Any]) -> str:
-    text = f'schema = 1\ndisplay = {json.dumps(str(display.resolve()))}\ndesign = "table"\ntable = "draws.csv"\n'
+    text = f'schema = 1\ndisplay = {toml_text(str(display.resolve()))}\ndesign = "table"\ntable = "draws.csv"\n'
     if fixed:
-        text += "\n[set]\n" + "".join(f"{json.dumps(key)} = {toml_text('none' if value is None else value)}\n" for key, value in fixed.items())
+        text += "\n[set]\n" + "".join(f"{toml_text(key)} = {toml_text('none' if value is None else value)}\n" for key, value in fixed.items())
     for measure in measures:
         if isinstance(measure, dict):
             settings = measure.get("settings", {})
-            text += "\n[[measure]]\n" + "".join(f"{k} = {json.dumps(v)}\n" for k, v in measure.items() if k != "settings")
-            text += "[measure.settings]\n" + "".join(f"{k} = {json.dumps(v)}\n" for k, v in settings.items()) if settings else ""
+            text += "\n[[measure]]\n" + "".join(f"{k} = {toml_text(v)}\n" for k, v in measure.items() if k != "settings")
+            text += "[measure.settings]\n" + "".join(f"{k} = {toml_text(v)}\n" for k, v in settings.items()) if settings else ""
         elif measure == "picture":
             text += f'\n[[picture]]\nname = "picture"\nsize = {SIZE}\ncompare = true\n'
         elif measure == "check":
             text += '\n[[measure]]\nname = "check"\n'
         else:
-            text += f"\n[[measure]]\nname = {json.dumps(measure)}\n[measure.settings]\nsize = {SIZE}\n"
+            text += f"\n[[measure]]\nname = {toml_text(measure)}\n[measure.settings]\nsize = {SIZE}\n"
     return text
 
 
@@ -312,10 +311,10 @@ def allowed_scale(at: dict[float, float], amount: float, cut: Mapping[float, str
     why = f" (at {min(missing):g}: {(cut or {}).get(min(missing), 'nothing was measured')})" if missing else ""
     if not known:
         return float("nan"), f"unknown: nothing was measured{why}"
-    keeps = [s for s in known if at[s] <= amount]
-    if keeps and keeps[-1] == known[-1]:
+    loses = [s for s in known if at[s] > amount]
+    if not loses:
         return known[-1], f"or more: larger ones were not measured{why}" if why else "or more: all that was tried keeps it"
-    high = min(s for s in known if at[s] > amount and all(at[t] > amount for t in known if t > s))
+    high = min(loses)  # what larger errors make up for again is not allowed: it would take all sizes between, too
     below = [s for s in known if s < high]
     if below:
         low = max(below)

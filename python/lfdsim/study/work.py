@@ -45,9 +45,9 @@ def compute(base: "lfdsim.Display", folder: pathlib.Path, overrides: dict[str, V
             _picture(row, display, picture, _in_folder(picture.settings, folder), threads)
     except StudyError:
         raise
-    except ValueError as error:
-        if isinstance(error, lfdsim.InputError) and error.key == "device":  # another machine, or this one another day, has it
-            raise StudyFailed("", str(error)) from error
+    except (TypeError, ValueError) as error:
+        if isinstance(error, lfdsim.InputError) and (error.key == "device" or error.lacks_memory):
+            raise StudyFailed("", str(error)) from error  # another machine, or this one another day, has it
         return Row(error=" ".join(str(error).split()))
     return row
 
@@ -73,9 +73,17 @@ def described(text: str, folder: pathlib.Path, fixed: Mapping[str, Any]) -> "lfd
     return lfdsim.Display.parse(text, folder, whole)
 
 
+FILE_KEYS = ("model", "image", "table", "start")  # the last words of keys that name one file
+
+
 def _in_folder(values: Mapping[str, Any], folder: pathlib.Path) -> dict[str, Any]:
-    """Names of files that are there, with their folder: a worker's own is another."""
-    return {k: str(folder / v) if isinstance(v, str) and names_file(folder, v) else v for k, v in values.items()}
+    """Names of files with their folder, the display's: that in which a worker runs is another."""
+
+    def is_name(key: str, text: str) -> bool:
+        names_one = key.rpartition(".")[2] in FILE_KEYS and text not in ("", "none") and not text.startswith("built-in:")
+        return names_one or names_file(folder, text)
+
+    return {k: str(folder / v) if isinstance(v, str) and is_name(k, v) else v for k, v in values.items()}
 
 
 def names_file(folder: pathlib.Path, text: str) -> bool:

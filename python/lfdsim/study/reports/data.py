@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import tomllib
 
 import numpy as np
 import pandas as pd
@@ -11,6 +12,7 @@ from ..collected import table_of
 from ..columns import is_uncertainty
 from ..planned import Plan
 
+MOST_LEVELS = 12  # of a factor that are told apart
 MOST_FIGURES = 8  # shown where neither limits nor objectives say which ones matter
 
 
@@ -19,7 +21,9 @@ class Data:
     plan: Plan
     rows: pd.DataFrame  # the possible ones
     failed: pd.DataFrame  # the others, with `error`
-    factors: dict[str, np.ndarray]  # numbers, shape (rows,); of texts and lists the number of the level
+    factors: dict[str, np.ndarray]  # numbers, shape (rows,); of texts, lists and unknown values the number of the level
+    numbers: set[str]  # of the factors those that are numbers
+    left_out: list[str]  # factors that are neither numbers nor of few levels
     levels: dict[str, list[str]]  # of factors with few values: their names, in the order of the factor's numbers, see `positions`
     positions: dict[str, np.ndarray]  # of those: the number of each row's level
     figures: list[str]  # shown: they vary
@@ -29,18 +33,42 @@ def read(plan: Plan) -> Data:
     table = table_of(plan).to_pandas()
     rows = table[table["error"].isna()].reset_index(drop=True)
     keys = [n for n in plan.table().column_names if n != "replicate" and not n.endswith(".seed")]
-    factors, levels, positions = {}, {}, {}
+    factors, levels, positions, numbers, left_out = {}, {}, {}, set(), []
     for name in _representatives(plan, keys):
-        column = rows[name]
+        column = _filled(plan, name, rows[name])
         distinct, position = _levels(column)
         if len(distinct) < 2:
             continue
-        factors[name] = (
-            column.to_numpy(float) if pd.api.types.is_numeric_dtype(column) and not column.isna().any() else position.astype(float)
-        )
-        if len(distinct) <= 12:
+        if _is_number(column):
+            factors[name] = column.to_numpy(float)
+            numbers.add(name)
+        elif len(distinct) <= MOST_LEVELS:
+            factors[name] = position.astype(float)
+        else:
+            left_out.append(name)
+            continue
+        if len(distinct) <= MOST_LEVELS:
             levels[name], positions[name] = distinct, position
-    return Data(plan, rows, table[table["error"].notna()], factors, levels, positions, _figures(plan, rows))
+    return Data(plan, rows, table[table["error"].notna()], factors, numbers, left_out, levels, positions, _figures(plan, rows))
+
+
+def _is_number(column: pd.Series) -> bool:
+    return pd.api.types.is_numeric_dtype(column) and not column.isna().any()
+
+
+def _filled(plan: Plan, name: str, column: pd.Series) -> pd.Series:
+    """With the display's own value where a cell is empty, if [set] or the description states a number."""
+    value: object = plan.study.fixed.get(name)
+    if value is None:
+        value = tomllib.loads(plan.display_text)
+        for part in name.split("."):
+            if isinstance(value, list) and part.isdigit() and int(part) < len(value):
+                value = value[int(part)]
+            else:
+                value = value.get(part) if isinstance(value, dict) else None
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and pd.api.types.is_numeric_dtype(column):
+        return column.fillna(value)
+    return column
 
 
 def _representatives(plan: Plan, keys: list[str]) -> list[str]:
@@ -49,7 +77,7 @@ def _representatives(plan: Plan, keys: list[str]) -> list[str]:
 
 
 def _levels(column: pd.Series) -> tuple[list[str], np.ndarray]:
-    if pd.api.types.is_numeric_dtype(column) and not column.isna().any():
+    if _is_number(column):
         distinct, position = np.unique(column.to_numpy(), return_inverse=True)
         return [f"{v:.6g}" for v in distinct], position
     distinct, position = np.unique(column.fillna("-").astype(str).to_numpy(dtype=str), return_inverse=True)

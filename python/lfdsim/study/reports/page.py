@@ -7,7 +7,6 @@ import html
 import pathlib
 
 import numpy as np
-import pandas as pd
 
 from .. import files
 from ..planned import Plan
@@ -31,8 +30,10 @@ svg{max-width:100%;height:auto}.rows{display:flex;gap:1.5em;flex-wrap:wrap}
 def write(plan: Plan) -> pathlib.Path:
     data = reading.read(plan)
     parts = [_head(data), _failures(data)]
-    if len(data.rows) and data.figures:
-        parts += [_figures(data), _yield(data), _main_effects(data), _interactions(data), _cost(data), _pareto(data), _extremes(data)]
+    shown = bool(len(data.rows) and data.figures)
+    parts += [_figures(data)] if shown else []
+    parts.append(_yield(data))
+    parts += [_main_effects(data), _interactions(data), _cost(data), _pareto(data), _extremes(data)] if shown else []
     text = (
         f"<!DOCTYPE html><html lang=en><meta charset=utf-8><meta name=rows content={kept.mark(plan)}>\n"
         f"<title>{_text(plan.name)}</title><style>{STYLE}</style>\n"
@@ -102,7 +103,8 @@ def _yield(data: Data) -> str:
         return ""
     all_pass, rows = np.ones(len(data.rows), bool), []
     for limit in limits:
-        passed = effects.passes(data.rows[limit.figure].to_numpy(float), limit)
+        found = data.rows[limit.figure] if limit.figure in data.rows else np.full(len(data.rows), np.nan)
+        passed = effects.passes(np.asarray(found, float), limit)
         all_pass &= passed
         rows.append([limit.figure, "-" if limit.low is None else limit.low, "-" if limit.high is None else limit.high, *_share(data, passed)])
     rows.append(["all limits", "", "", *_share(data, all_pass)])
@@ -155,10 +157,10 @@ def _interactions(data: Data) -> str:
 def _cost(data: Data) -> str:
     """Which factor moves a figure most."""
     # Texts and lists have no order: a line through them says nothing, unless they are two.
-    names = [n for n in data.factors if pd.api.types.is_numeric_dtype(data.rows[n]) or len(np.unique(data.factors[n])) == 2]
-    without = [_text(n) for n in data.factors if n not in names]
-    parts = [f"<p>Left out of the regression, as texts and lists have no order: {', '.join(without)}.</p>"] if without else []
-    if not data.factors:
+    names = [n for n in data.factors if n in data.numbers or len(np.unique(data.factors[n])) == 2]
+    without = [_text(n) for n in (*data.factors, *data.left_out) if n not in names]
+    parts = [f"<p>Left out of the regression, as texts, lists and empty cells have no order: {', '.join(without)}.</p>"] if without else []
+    if not data.factors and not data.left_out:
         return ""
     matrix = np.column_stack([data.factors[n] for n in names]) if names else None
     replicates = data.plan.study.replicates

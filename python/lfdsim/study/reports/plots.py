@@ -69,7 +69,7 @@ def histograms(data: Data) -> Figure:
         values = data.rows[name].to_numpy(float)
         values = values[np.isfinite(values)]
         axis.hist(values, bins=min(40, max(5, int(np.sqrt(len(values))))), color=BLUE)
-        for percent in (5, 50, 95):
+        for percent in (5, 50, 95) if len(values) else ():
             axis.axvline(np.percentile(values, percent), color="black", lw=1 if percent == 50 else 0.6, ls="-" if percent == 50 else ":")
         for limit in data.plan.study.limits:
             for at in (limit.low, limit.high) if limit.figure == name else ():
