@@ -44,7 +44,7 @@ std::vector<std::string> lines_of(const std::string& label, std::size_t letters)
 
 // Returns the scale of the labels: as large as needed to read them on a sheet of that width, but not so large that a word is wider
 // than a picture.
-int label_scale(std::span<const std::string> labels, int picture_width, int sheet_width) {
+int fitting_scale(std::span<const std::string> labels, int picture_width, int sheet_width) {
     std::size_t longest = 1;
     for (const std::string& label : labels) {
         std::istringstream words(label);
@@ -69,7 +69,7 @@ SheetLayout layout_of(std::span<const Image> pictures, std::span<const std::stri
     s.cell_width = 1;
     for (const Image& p : pictures) s.cell_width = std::max(s.cell_width, p.width);
     s.width = s.left(s.columns);
-    s.label_scale = label_scale(labels, s.cell_width, int(std::min<std::int64_t>(s.width, std::numeric_limits<int>::max())));
+    s.label_scale = fitting_scale(labels, s.cell_width, int(std::min<std::int64_t>(s.width, std::numeric_limits<int>::max())));
     s.letters = std::size_t(s.cell_width / (glyph_width * s.label_scale));
     std::size_t lines = 0;  // of the longest label
     for (const std::string& each : labels) lines = std::max(lines, lines_of(each, s.letters).size());

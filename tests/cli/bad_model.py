@@ -70,7 +70,7 @@ for name, resources, note in [("plain.3mf", square_3mf(""), ""), ("red.3mf", red
 # A required extension is refused by its name, unless it is read, or what it adds is noted.
 for of_model, refused in [('requiredextensions="m"', ""), ('xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06" requiredextensions="p m"', ""),
                           ('xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"\n requiredextensions="m b"', "beamlattice"),
-                          ("xmlns:zz='http://example.com/zz' requiredextensions='zz'", "http://example.com/zz"), ('requiredextensions=" q "', "extension q,")]:
+                          ("xmlns:zz='http://example.com/production/zz' requiredextensions = 'zz'", "http://example.com/production/zz"), ('requiredextensions=" q "', "extension q,")]:
     write_3mf("required.3mf", square_3mf(""), item, of_model=of_model)
     if refused:
         checks.refused(program, of_model, "photo tiny.toml --model required.3mf -o 3mf.png", refused, "which is not read")
@@ -78,7 +78,7 @@ for of_model, refused in [('requiredextensions="m"', ""), ('xmlns:p="http://sche
         program.must("photo tiny.toml --model required.3mf -o 3mf.png")
 # Numbers of OBJ that begin with a point.
 for name, zero in ("point.obj", ""), ("digit.obj", "0"):
-    (program.folder / name).write_text(f"v -{zero}.5 -{zero}.5 {zero}.0\nv {zero}.5 -{zero}.5 0\nv +{zero}.5 {zero}.5 0\nvt {zero}.5 {zero}.25\nf 1/1 2/1 3/1\n")
+    (program.folder / name).write_text(f"v -{zero}.5 -{zero}.5 {zero}.0\nv {zero}.5 -{zero}.5 0\nv +{zero}.5 \\\n{zero}.5 0\nvt {zero}.5 {zero}.25\nf 1/1 2/1 3/1\n")
     program.must(f"photo tiny.toml --model {name} --size 60x40 -o {name}.npy")
 checks.that((program.folder / "point.obj.npy").read_bytes() == (program.folder / "digit.obj.npy").read_bytes(), "OBJ: .5 is not 0.5")
 # Hundreds of thousands of triangles before the only one with a material are searched once.

@@ -126,6 +126,10 @@ for change in ({"flipImageX": {"value": 1}}, {"flipSubp": {"value": 1}}, {"seria
     (folder / "two.json").write_text(json.dumps([unit, {**unit, **change}]))
     checks.refused(program, f"two calibrations, {change}", "import two.json --distance-mm 400 -o x.toml", "two.json: contains 2 calibrations")
 
+# ... and a flag that is missing is one that is not set.
+(folder / "two.json").write_text(json.dumps([unit, {**unit, "flipImageX": 0, "flipSubp": {"value": False}}]))
+program.must("import two.json --distance-mm 400 -o alike.toml")
+
 # A calibration is found where services put it, and nothing is blamed on the display that it is of: it is focused on its panel.
 (folder / "service.json").write_text(json.dumps({"error": 0, "devices": [{"hwid": "X", "calibration": json.loads((folder / "visual.json").read_text())}]}))
 for options in ("", "--index 1.9", "--index 1.6"):

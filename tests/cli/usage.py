@@ -22,6 +22,7 @@ for name, arguments, words in [
     ("empty description", ["check", ""], "DISPLAY.toml: is empty"),
     ("empty output", ["eia", "tiny.toml", "--pattern", "white", "-o", ""], "--output: is empty"),
     ("empty key", ["check", "tiny.toml", "--set", ""], "--set: is empty; give KEY=VALUE"),
+    ("empty after an equals sign", ["glass", "PMMA", "--plot=", "other"], "--plot: is empty; give OUT.svg"),
     ("empty option", ["glass", "PMMA", "--plot", ""], "--plot: is empty; give OUT.svg"),
     ("empty number", ["eia", "tiny.toml", "--pattern", "white", "-o", "out.png", "--threads", ""], "--threads: is empty; give N"),
     ("bench of a missing model", "bench --model none.obj", "--model: none.obj does not exist"),

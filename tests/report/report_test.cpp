@@ -1,5 +1,6 @@
 // The folder of results and the report of it: what is shown, what is missing, and that nothing of it comes from elsewhere.
 #include "report/pages/report.h"
+#include "report/pages/report_parts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,6 +61,16 @@ int count(const std::string& text, const std::string& part) {
     int n = 0;
     for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
     return n;
+}
+
+TEST(ReportText, RoundingErrorsAreNoFigures) {
+    EXPECT_EQ(digits_of(-1.5e-16), "0");
+    EXPECT_EQ(digits_of(0.31416), "0.3142");
+    EXPECT_EQ(error_text({7.9e-11, 0}, {-0.07887, 0}), "");  // too small for the digits of its value
+    EXPECT_EQ(error_text({0.5, 2}, {-5.2, 1e6}), " ± 0.5");  // that of the other value is
+    EXPECT_EQ(error_text({2e-6}, {nullptr}), " ± 2e-06");
+    EXPECT_EQ(error_text({1e-16}, {1e-17}), "");
+    EXPECT_EQ(error_text(nullptr, {1.}), "");
 }
 
 TEST(Report, ShowsWhatTheFolderHolds) {

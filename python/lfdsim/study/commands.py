@@ -239,6 +239,7 @@ def _override(text: str) -> tuple[str, object]:
         parsed = tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return key.strip(), value
-    if isinstance(parsed, (datetime.date, datetime.time)):  # a datetime is a date
-        raise StudyError(f"--set {text}", "is a date or a time, which no key takes")
+    each = parsed if isinstance(parsed, list) else [parsed]
+    if any(isinstance(one, (datetime.date, datetime.time)) for one in each):  # a datetime is a date
+        raise StudyError(f"--set {text}", 'has a date or a time, which no key takes; a text stands in quotes: KEY="..."')
     return key.strip(), parsed

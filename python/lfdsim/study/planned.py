@@ -113,8 +113,8 @@ def _make(study: Study, folder: pathlib.Path) -> Plan:
     rows_folder = folder / "rows"
     if rows_folder.exists() and (not rows_folder.is_dir() or any(rows_folder.iterdir())):
         raise StudyError(folder, "has rows but no plan.json: it is no study's folder, or was changed by hand; give another folder")
-    files.refuse_foreign(folder / "study.toml", study.text)
     if not files.is_of(folder / "plan.parquet", identity):  # planning may have been stopped before plan.json
+        files.refuse_foreign(folder / "study.toml", study.text)
         files.refuse_foreign(folder / "plan.parquet")
     for name in ("study.parquet", "report.html", PICTURES, "curves"):
         files.refuse_foreign(folder / name)

@@ -38,14 +38,17 @@ def compute(base: "lfdsim.Display", folder: pathlib.Path, overrides: dict[str, V
     another time, so the row is not done."""
     row = Row()
     try:
-        display = changed(base, folder, overrides)
+        try:
+            display = changed(base, folder, overrides)
+        except TypeError as error:  # a value of a kind that no key takes
+            raise ValueError(str(error)) from error
         for measure in study.measures:
             _measure(row, display, measure, _in_folder(measure.settings, folder), threads, study.path)
         for picture in study.pictures:
             _picture(row, display, picture, _in_folder(picture.settings, folder), threads)
     except StudyError:
         raise
-    except (TypeError, ValueError) as error:
+    except ValueError as error:
         if isinstance(error, lfdsim.InputError) and (error.key == "device" or error.lacks_memory):
             raise StudyFailed("", str(error)) from error  # another machine, or this one another day, has it
         return Row(error=" ".join(str(error).split()))

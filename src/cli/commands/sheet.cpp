@@ -23,7 +23,8 @@ struct SheetArguments {
     Option output = command.option("-o,--output", "FILE", "Picture to write: .png (sRGB), or linear .exr .npy").required();
     Option columns = command.option("--columns", "N", "Pictures in a row; default 2").initially("2");
     Option width_px = command.option("--width-px", "W", "Width of each picture on the sheet; default 640").initially("640");
-    List labels = command.list("--label", "TEXT", "Text above a picture; this option once for each, in order").one_each();
+    List labels =
+        command.list("--label", "TEXT", "Text above a picture; this option once for each, in order").one_each().may_be_empty();
     Flag json = command.flag("--json", "Print results as JSON");
 };
 
@@ -60,7 +61,8 @@ void run(const SheetArguments& args) {
     const double sheet_pixels = contact_sheet_pixels(cells, labels, int(columns));
     if (sheet_pixels >= 0x1p31)
         throw InputError("--width-px",
-                         fmt::format("the sheet would have {:.3g} million pixels, allowed are {:.0f}; give a smaller width",
+                         fmt::format("the sheet would have {:.0f} million pixels, fewer than {:.0f} are allowed; give a smaller "
+                                     "width, or fewer pictures",
                                      sheet_pixels * 1e-6, 0x1p31 * 1e-6));
     // Bytes of the cells and of the sheet, 12 a pixel, and a tenth more.
     require_memory("--width-px", fmt::format("{} {} pixels wide, and the sheet", counted(cells.size(), "picture"), width),

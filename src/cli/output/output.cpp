@@ -81,12 +81,14 @@ Json OutputOptions::write(const Image& image, Encoding encoding, const Display& 
     std::filesystem::path file = path();
     if (!complete) {
         about[incomplete_mark] = "true";
-        if (std::filesystem::exists(file))  // the picture that is there may be complete: it stays
-            file.replace_filename(file.stem().string() + ".incomplete" + file.extension().string());
+        std::error_code unknown;
+        for (int n = 1; std::filesystem::exists(file, unknown); ++n)  // the picture that is there may be complete: it stays
+            file = std::filesystem::path(path()).replace_extension((n == 1 ? ".incomplete" : fmt::format(".incomplete-{}", n)) +
+                                                                   file.extension().string());
     }
     const CutOff cut = save(file, image, encoding, display, std::move(about), std::move(layers), &progress);
     progress.end();
-    Json more = warn(cut);
+    Json more = warn(cut, file.string());
     if (complete) return more;
     spdlog::warn("interrupted; {} contains {}{}", file.string(),
                  content.empty() ? "the completed part, the rest is black" : content,
@@ -106,12 +108,12 @@ CutOff OutputOptions::save(const std::filesystem::path& path, const Image& image
     return cut;
 }
 
-Json OutputOptions::warn(const CutOff& cut) const {
+Json OutputOptions::warn(const CutOff& cut, const std::string& file) const {
     std::string darker;  // auto is about the mean, and may cut off more
     if (command_.knows("--exposure") && !command_.given("--path"))
         darker = command_.given("--exposure") ? fmt::format("an --exposure {:.4g} times smaller, or ", cut.greatest)
                                               : fmt::format("--exposure {:.4g}, or ", 1 / cut.greatest);
-    return warn_of_cut_off(path(), cut, darker + keeps_light);
+    return warn_of_cut_off(file.empty() ? path() : file, cut, darker + keeps_light);
 }
 
 Json warn_of_cut_off(const std::string& what, const CutOff& cut, const std::string& remedy) {

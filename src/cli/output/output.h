@@ -62,8 +62,8 @@ class OutputOptions {
     /// does not warn of it.
     CutOff save(const std::filesystem::path&, const Image&, Encoding, const Display&, Metadata about, std::vector<ImageLayer> = {},
                 Job* = nullptr) const;
-    /// Warns of light that the saved pictures lack, as warn_of_cut_off() does.
-    Json warn(const CutOff&) const;
+    /// Warns of light that the saved pictures lack, as warn_of_cut_off() does; `file`: their name, by default that of the option.
+    Json warn(const CutOff&, const std::string& file = {}) const;
     const std::string& path() const { return path_.text(); }
     int bits() const { return bits_.text() == "16" ? 16 : 8; }
 

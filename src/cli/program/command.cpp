@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <functional>
 
 namespace lfdsim::cli {
 namespace {
@@ -24,8 +23,18 @@ Misuse misuse(const CLI::App& program, const CLI::ParseError& error) {
     return all;
 }
 
-// Refuses "--camera-mm 40 0 599" and "--set array.pitch_mm 8", which CLI11 would take for a value and more files. `words` are in
-// reverse order.
+std::string is_empty(const std::string& form) { return "is empty; give " + (form.empty() ? "a name" : form); }
+
+// The name of the rule that refuses an empty text, such as that of a shell's variable without a value.
+constexpr const char* not_empty = "not empty";
+
+void refuse_empty(CLI::Option* option) {
+    const std::string words = is_empty(option->get_type_name());
+    option->check([words](const std::string& text) { return text.empty() ? words : std::string(); }, "", not_empty);
+}
+
+// Refuses "--model=" and "--camera-mm 40 0 599" and "--set array.pitch_mm 8", which CLI11 would take for a value and more files.
+// `words` are in reverse order.
 void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
     std::reverse(words.begin(), words.end());
     const auto commands = [&](const std::string& word) {
@@ -35,6 +44,9 @@ void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
     if (name == words.end()) return;
     const CLI::App& command = *commands(*name).front();
     for (auto word = name + 1; word != words.end() && *word != "--"; ++word) {
+        if (word->starts_with("--") && word->ends_with("="))
+            if (const CLI::Option* empty = command.get_option_no_throw(word->substr(0, word->size() - 1)))
+                throw InputError(word->substr(0, word->size() - 1), is_empty(empty->get_type_name()));
         const CLI::Option* option = word->starts_with("--") ? command.get_option_no_throw(*word) : nullptr;
         if (!option || word + 1 == words.end()) continue;
         const std::string form = option->get_type_name();
@@ -44,12 +56,6 @@ void refuse_spaces(const CLI::App& program, std::vector<std::string> words) {
         if (const auto numbers = spaced_numbers(form, {word + 1, words.end()}); !numbers.empty())
             throw spaced_error(*word, form, numbers);
     }
-}
-
-// Refuses an empty text, such as that of a shell's variable without a value: no option takes one.
-std::function<std::string(const std::string&)> not_empty(const std::string& form) {
-    const std::string words = "is empty; give " + (form.empty() ? "a name" : form);
-    return [words](const std::string& text) { return text.empty() ? words : std::string(); };
 }
 
 }  // namespace
@@ -77,6 +83,10 @@ List List::one_each() const {
     option_->allow_extra_args(false);
     return *this;
 }
+List List::may_be_empty() const {
+    option_->get_validator(not_empty)->active(false);
+    return *this;
+}
 List List::expected(int least, int most) const {
     option_->expected(least, most);
     return *this;
@@ -84,14 +94,16 @@ List List::expected(int least, int most) const {
 
 Option Command::option(const std::string& names, const std::string& form, const std::string& help) const {
     Option option;
-    option.option_ = app_->add_option(names, *option.text_, help)->type_name(form)->check(not_empty(form));
+    option.option_ = app_->add_option(names, *option.text_, help)->type_name(form);
+    refuse_empty(option.option_);
     option.name_ = names.substr(names.find(',') + 1);
     option.form_ = form;
     return option;
 }
 List Command::list(const std::string& names, const std::string& form, const std::string& help) const {
     List list;
-    list.option_ = app_->add_option(names, *list.texts_, help)->type_name(form)->check(not_empty(form));
+    list.option_ = app_->add_option(names, *list.texts_, help)->type_name(form);
+    refuse_empty(list.option_);
     list.name_ = names.substr(names.find(',') + 1);
     return list;
 }

@@ -53,6 +53,7 @@ class List : public Given {
   public:
     List required() const;
     List one_each() const;                     // each value has the option's name before it
+    List may_be_empty() const;                 // a value may be an empty text
     List expected(int least, int most) const;  // values
     const std::vector<std::string>& texts() const { return *texts_; }
 

@@ -109,9 +109,10 @@ InputError spaced_error(const std::string& option, const std::string& form, cons
     const std::string between(1, separator(form));
     const bool comma = between == ",";
     const std::string wanted = form.substr(form.rfind('|') + 1);
-    const bool all = numbers.size() == std::size_t(1 + std::count(wanted.begin(), wanted.end(), between[0]));
-    return {option, fmt::format("the numbers of its value, {}, are separated by {} without spaces: {} {}", wanted,
-                                comma ? "commas" : "an x", option, all ? fmt::to_string(fmt::join(numbers, between)) : wanted)};
+    const bool complete = numbers.size() == std::size_t(1 + std::count(wanted.begin(), wanted.end(), between[0]));
+    return {option,
+            fmt::format("the numbers of its value, {}, are separated by {} without spaces: {} {}", wanted,
+                        comma ? "commas" : "an x", option, complete ? fmt::to_string(fmt::join(numbers, between)) : wanted)};
 }
 
 InputError setting_error(const std::string& option, const std::string& key) {

@@ -51,16 +51,22 @@ std::string_view next_element(std::string_view& text, std::string_view name) {
 // Returns the value of an attribute of the element with which a text begins; empty if it has none.
 std::string_view value_of(std::string_view text, const std::string& attribute) {
     const std::string_view tag = text.substr(0, text.find('>'));
-    const std::string wanted = attribute + "=";
-    std::size_t at = tag.find(wanted);
-    while (at != tag.npos && at > 0 && blanks.find(tag[at - 1]) == blanks.npos) at = tag.find(wanted, at + 1);
-    if (at == tag.npos) return {};
-    const std::string_view quoted = tag.substr(at + wanted.size());
-    return quoted.size() < 2 ? "" : quoted.substr(1, quoted.find(quoted[0], 1) - 1);
+    const auto skip_blanks = [](std::string_view& rest) {
+        rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+    };
+    for (std::size_t at = tag.find(attribute); at != tag.npos; at = tag.find(attribute, at + 1)) {
+        std::string_view rest = tag.substr(at + attribute.size());
+        skip_blanks(rest);
+        if (at == 0 || blanks.find(tag[at - 1]) == blanks.npos || !rest.starts_with('=')) continue;
+        rest.remove_prefix(1);
+        skip_blanks(rest);
+        return rest.size() < 2 ? "" : rest.substr(1, rest.find(rest[0], 1) - 1);
+    }
+    return {};
 }
 
-// Throws std::runtime_error if a model requires an extension without which it would be shown wrongly. Materials are read, or noted
-// below, and of the production extension parts in other files are noted.
+// Throws std::runtime_error if a model requires an extension other than those of materials, which are read or noted, of production,
+// whose parts in other files are noted, and of sets of triangles, which change no picture.
 void check_required(std::string_view text) {
     text.remove_prefix(std::min(text.find("<model"), text.size()));
     std::string_view prefixes = value_of(text, "requiredextensions");
@@ -69,7 +75,10 @@ void check_required(std::string_view text) {
         const std::string prefix(prefixes.substr(0, prefixes.find_first_of(blanks)));
         prefixes.remove_prefix(prefix.size());
         const std::string_view name = value_of(text, "xmlns:" + prefix);
-        if (!prefix.empty() && name.find("/material/") == name.npos && name.find("/production/") == name.npos)
+        const auto is = [&](const char* kind) {
+            return name.starts_with("http://schemas.microsoft.com/3dmanufacturing/" + std::string(kind));
+        };
+        if (!prefix.empty() && !is("material/") && !is("production/") && !is("trianglesets/"))
             throw std::runtime_error("it requires the 3MF extension " + std::string(name.empty() ? prefix : name) +
                                      ", which is not read; export it without");
     }

@@ -69,9 +69,12 @@ const LensJson& plain(const LensJson& json, const std::string& key) {
 /// The keys of a cell's places: x and y of red, green and blue.
 constexpr const char* offset_keys[] = {"ROffsetX", "ROffsetY", "GOffsetX", "GOffsetY", "BOffsetX", "BOffsetY"};
 
-/// Whether two objects have the same plain values under these keys.
+/// Whether two objects mean the same by their plain values under these keys: a flag that is missing is false, or 0.
 bool same(std::span<const char* const> keys, const LensJson& a, const LensJson& b) {
-    return std::all_of(keys.begin(), keys.end(), [&](const char* key) { return plain(a, key) == plain(b, key); });
+    const auto meant = [](const LensJson& x) {
+        return x.is_null() ? LensJson(0) : x.is_boolean() ? LensJson(int(x.get<bool>())) : x;
+    };
+    return std::all_of(keys.begin(), keys.end(), [&](const char* key) { return meant(plain(a, key)) == meant(plain(b, key)); });
 }
 
 /// A calibration within a text. The text may nest deeply, so no value is copied or compared as a whole.
@@ -80,13 +83,13 @@ struct CalibrationValues {
     std::shared_ptr<const LensJson> text;  // that contains it
     const LensJson* json;                  // the calibration, in `text`
 
-    /// Whether another calibration has the same values, of all that are read: that of the same device.
+    /// Whether another calibration has the same values, of all that the result depends on: that of the same device.
     bool same_unit(const LensJson& other) const {
         constexpr const char* keys[] = {"serial",   "pitch",      "slope",    "center",         "DPI", "screenW", "screenH",
                                         "viewCone", "flipImageX", "flipSubp", "CellPatternMode"};
         const LensJson &cells = value_of(*json, "subpixelCells"), &others = value_of(other, "subpixelCells");
-        if (!same(keys, *json, other) || cells.size() != others.size() || cells.is_array() != others.is_array()) return false;
-        for (std::size_t k = 0; cells.is_array() && k < cells.size(); ++k)
+        if (!same(keys, *json, other) || cells.size() != others.size()) return false;
+        for (std::size_t k = 0; cells.is_array() && others.is_array() && k < cells.size(); ++k)
             if (!same(offset_keys, cells[k], others[k])) return false;
         return true;
     }

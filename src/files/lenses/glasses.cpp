@@ -29,7 +29,7 @@ void visit_glasses(std::span<const GlassCatalogue> catalogues, const Visit& visi
     for (const ShippedGlass& shipped : shipped_glasses()) visit(shipped.glass);
 }
 
-/// Returns the doubt about a glass of a catalogue that does not have it for that reason; null if there is none.
+/// Returns why a catalogue lacks a glass that it names; null otherwise.
 const Problem* left_out(std::string_view name, const GlassCatalogue& catalogue) {
     const auto& glasses = catalogue.glasses;
     if (std::any_of(glasses.begin(), glasses.end(), [&](const Glass& glass) { return same_name(glass.name, name); }))
@@ -54,7 +54,8 @@ const Glass* find_glass(std::string_view name, std::span<const GlassCatalogue> c
 
 std::string unknown_glass(std::string_view name, std::span<const GlassCatalogue> catalogues) {
     for (const GlassCatalogue& catalogue : catalogues)
-        if (const Problem* const why = left_out(name, catalogue)) return fmt::format("{}: {}", why->where, why->what);
+        if (const Problem* const why = left_out(name, catalogue))
+            return fmt::format("{}: {}; mend the catalogue, or name another one before it", why->where, why->what);
     std::set<std::string> capitals;  // each name once: a glass may be in several catalogues
     visit_glasses(catalogues, [&](const Glass& glass) { capitals.insert(in_capitals(glass.name)); });
     const std::vector<std::string_view> near =

@@ -104,8 +104,8 @@ void check_windows(const InputFile& file, const PixelWindow& data, const PixelWi
     // Rows of the data are read whole, so data beyond the frame may be 2^22 pixels or 64 times the frame.
     const double frame = double(display.columns) * double(display.rows), all = double(data.columns) * double(data.rows);
     if (frame >= 0x1p31 || frame > std::max(0x1p25, 64 * all) || all > std::max(0x1p22, 64 * frame))
-        file.refuse(fmt::format("is too large: its display window is {} x {} pixels, its data {} x {}", display.columns,
-                                display.rows, data.columns, data.rows));
+        file.refuse(fmt::format("is too large: its display window is {} x {} pixels, its data {} x {}; crop the larger one",
+                                display.columns, display.rows, data.columns, data.rows));
 }
 
 /// Copies the pixels that lie in both windows; outside the data window the picture stays black. Alpha, if there is any, must be 1

@@ -150,14 +150,15 @@ std::string value_html(const Json& values, const std::string& unit) {
 std::string digits_of(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-12 ? 0. : value); }
 
 std::string error_text(const Json& errors, const Json& values) {
-    const auto largest = [](const Json& list) {
-        double most = 0;
-        for (const Json& x : list)
-            if (x.is_number()) most = std::max(most, std::abs(x.get<double>()));
-        return most;
+    const auto number = [](const Json& list, std::size_t k) {
+        const Json& x = list.is_array() ? list[k] : list;
+        return x.is_number() ? std::abs(x.get<double>()) : 0;
     };
-    const double error = largest(errors);
-    return error > 1e-5 * largest(values) ? fmt::format(" ± {:.2g}", error) : "";
+    double most = 0;
+    for (std::size_t k = 0; k < errors.size(); ++k)
+        if (const double error = number(errors, k); error > std::max(1e-12, 1e-5 * (k < values.size() ? number(values, k) : 0)))
+            most = std::max(most, error);
+    return most > 0 ? fmt::format(" ± {:.2g}", most) : "";
 }
 
 std::string finding_rows(const Json& report) {

@@ -14,8 +14,8 @@ std::string value_html(const Json& values, const std::string& unit);
 /// Returns a value in four digits. What is nearer to 0 than 1e-12 of its unit is a rounding error: 0.
 std::string digits_of(double value);
 
-/// Returns " ± 0.02" for the largest of a finding's errors; an empty text if none is stated, or if none could be seen in the digits
-/// of the values.
+/// Returns " ± 0.02" for the largest of a finding's errors, one for each value, but for those that are too small to be seen in the
+/// digits of their value; an empty text if there is none.
 std::string error_text(const Json& errors, const Json& values);
 
 /// Returns the rows of one measure in the table of theory and measurement.

@@ -59,6 +59,10 @@ def _is_number(column: pd.Series) -> bool:
 def _filled(plan: Plan, name: str, column: pd.Series) -> pd.Series:
     """With the display's own value where a cell is empty, if [set] or the description states a number."""
     value: object = plan.study.fixed.get(name)
+    stem, _, last = name.rpartition(".")
+    vector = plan.study.fixed.get(stem)
+    if isinstance(vector, list) and last.isdigit() and int(last) < len(vector):
+        value = vector[int(last)]
     if value is None:
         value = tomllib.loads(plan.display_text)
         for part in name.split("."):

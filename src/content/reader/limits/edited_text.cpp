@@ -187,12 +187,15 @@ bool separate_libraries(std::string& text) {
 bool lead_with_digits(std::string& text) {
     std::string out;
     std::size_t copied = 0;  // of the text
+    bool wanted = false, continues = false;
     for (std::string_view rest = text; !rest.empty();) {
-        const std::string_view line = next_line(rest);
-        std::string_view words = line;
-        if (!next_word(words).starts_with('v')) continue;
-        for (std::size_t at = words.find('.'); at != words.npos; at = words.find('.', at + 1)) {
-            if (std::string_view(" \t+-").find(words[at - 1]) == std::string_view::npos) continue;
+        std::string_view words = next_line(rest);
+        const std::size_t last = words.find_last_not_of('\r');
+        const bool ends_open = last != words.npos && words[last] == '\\';  // the next line continues this one
+        if (!continues) wanted = next_word(words).starts_with('v');
+        continues = ends_open;
+        for (std::size_t at = words.find('.'); wanted && at != words.npos; at = words.find('.', at + 1)) {
+            if (at > 0 && std::string_view(" \t+-").find(words[at - 1]) == std::string_view::npos) continue;
             const auto point = std::size_t(words.data() + at - text.data());
             out.append(text, copied, point - copied) += '0';
             copied = point;

@@ -47,9 +47,8 @@ std::string refusal(const std::string& says, const std::filesystem::path& file, 
         if (says.find(known) != says.npos) return unfit;
     // Some messages name the file with its whole path.
     std::string text = says;
-    const std::string folder = file.parent_path().string() + "/";
-    for (std::size_t at = text.find(folder); at != text.npos && folder.size() > 1; at = text.find(folder, at))
-        text.erase(at, folder.size());
+    const std::string path = file.string(), name = file.filename().string();
+    if (const std::size_t at = text.find(path); at != text.npos) text.replace(at, path.size(), name);
     return text;
 }
 
