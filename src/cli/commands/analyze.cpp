@@ -209,6 +209,7 @@ AnalysisRequest request_of(const AnalyzeArguments& args) {
     if (variants.size() > 1 && request.paths.size() == 1) request.paths.resize(variants.size(), request.paths.front());
     for (std::size_t n = 0; n < request.paths.size(); ++n)
         faults.of([&] {
+            if (request.paths[n].empty()) throw InputError("DISPLAY.toml", "is required: give the description of a display");
             const Variant& variant = variants[n % variants.size()];
             Display& display = request.displays.emplace_back(args.display.read(request.paths[n], variant.setting));
             if (!variant.name.empty())
