@@ -59,7 +59,7 @@ class InputError(ValueError):
 
     @property
     def lacks_memory(self) -> bool:
-        """Whether there is not enough free memory now: another time, or on another machine, there may be."""
+        """Whether a problem is that too little memory is free, as the program words it: another time there may be enough."""
         return any(" of memory; " in problem.what for problem in self.problems)
 
     def of_arguments(self, names: Mapping[str, str]) -> InputError:

@@ -23,13 +23,12 @@ def check_keys(study: Study, display: "lfdsim.Display", keys: Iterable[str]) -> 
     """A key that no display has would fail in every row."""
     for key in keys:
         try:
-            _value(display, key)
             stem, _, last = key.rpartition(".")
-            vector = display[stem] if last.isdigit() else ()
+            value = display[stem if last.isdigit() else key]
         except (KeyError, ValueError) as error:
             raise StudyError(f"{study.table or study.path}: {key}", f"is not a key of the display: {error}") from error
-        if last.isdigit() and not (isinstance(vector, tuple) and int(last) < len(vector)):
-            found = f"has {len(vector)} components" if isinstance(vector, tuple) else "is not a vector in the display; state it there"
+        if last.isdigit() and not (isinstance(value, tuple) and int(last) < len(value)):
+            found = f"has {len(value)} components" if isinstance(value, tuple) else "is not a vector in the display; state it there"
             raise StudyError(f"{study.table or study.path}: {key}", f"names no component: {stem} {found}")
 
 

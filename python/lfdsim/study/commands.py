@@ -241,5 +241,5 @@ def _override(text: str) -> tuple[str, object]:
         return key.strip(), value
     each = parsed if isinstance(parsed, list) else [parsed]
     if any(isinstance(one, (datetime.date, datetime.time)) for one in each):  # a datetime is a date
-        raise StudyError(f"--set {text}", 'has a date or a time, which no key takes; a text stands in quotes: KEY="..."')
+        raise StudyError(f"--set {text}", 'has a date or a time, which no key takes; write a text in quotes: KEY="..."')
     return key.strip(), parsed

@@ -67,7 +67,7 @@ def read(plan: Plan, row: int, name: str) -> np.ndarray:
 
 @functools.lru_cache(maxsize=16)
 def _open(path: pathlib.Path, name: str, _identity: str) -> "zarr.Array[Any]":
-    """Of a study's identity: a folder that was removed may hold another one now."""
+    """The array of a picture. The study's identity keeps it apart from that of an earlier study in the same folder."""
     _require_zarr()
     import zarr
 

@@ -10,7 +10,7 @@ namespace lfdsim {
 /// or, if invalid as such, Latin-1. Unpaired halves of surrogate pairs become U+FFFD.
 std::string to_utf8(std::string_view bytes);
 
-/// Removes the first line of a text and returns it without its end, which is CR, LF, or CR and LF (next_line() takes LF alone).
+/// Removes the first line of a text and returns it without its end, which is CR, LF, or CR and LF; next_line() knows LF alone.
 std::string_view next_foreign_line(std::string_view& text);
 /// Returns the words of a line, between blanks and tabs.
 std::vector<std::string_view> words_of(std::string_view line);

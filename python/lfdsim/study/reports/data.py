@@ -12,7 +12,7 @@ from ..collected import table_of
 from ..columns import is_uncertainty
 from ..planned import Plan
 
-MOST_LEVELS = 12  # of a factor that are told apart
+MOST_LEVELS = 12  # values of a factor that plots and groups show one by one
 MOST_FIGURES = 8  # shown where neither limits nor objectives say which ones matter
 
 
